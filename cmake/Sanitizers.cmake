@@ -1,0 +1,5 @@
+# AddressSanitizer and UndefinedBehaviorSanitizer for every target, chosen by the preset `asan`.
+if(TACHYLITE_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()

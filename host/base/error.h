@@ -1,0 +1,27 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "base/file_location.h"
+
+namespace tachylite {
+
+/// The user's input is at fault (scene, mesh, image, option): one line "file:line: what is wrong, what was
+/// expected". main() prints it and exits with 2.
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(const std::string& message) : std::runtime_error(message) {}
+  InputError(const FileLocation& where, const std::string& message)
+      : std::runtime_error(where.str() + ": " + message) {}
+};
+
+/// A render, a Vulkan call or writing a file failed; the message names the call. main() exits with 1.
+class RenderError : public std::runtime_error {
+ public:
+  explicit RenderError(const std::string& message) : std::runtime_error(message) {}
+};
+
+}  // namespace tachylite

@@ -1,0 +1,36 @@
+#include "base/parallel.h"
+
+#include <memory>
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
+#include <oneapi/tbb/partitioner.h>
+
+namespace tachylite {
+namespace {
+std::unique_ptr<tbb::global_control> thread_limit;
+}
+
+void parallel_for(size_t begin, size_t end, size_t grain, const std::function<void(size_t, size_t)>& body) {
+  tbb::parallel_for(
+      tbb::blocked_range<size_t>(begin, end, grain),
+      [&](const tbb::blocked_range<size_t>& r) { body(r.begin(), r.end()); }, tbb::simple_partitioner());
+}
+
+void parallel_invoke(const std::function<void()>& a, const std::function<void()>& b) { tbb::parallel_invoke(a, b); }
+
+void set_thread_count(int count) {
+  thread_limit.reset();
+  if (count > 0)
+    thread_limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                         static_cast<size_t>(count));
+}
+
+int thread_count() {
+  return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
+}  // namespace tachylite

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace tachylite {
+
+/// Named float channels of equal size; row 0 on top, x fastest.
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::string> names;            // "R", "G", "B", "variance.R", "albedo.R", "depth.Z" ...
+  std::vector<std::vector<float>> channels;  // one of width*height for each name
+  std::map<std::string, std::string> metadata;
+
+  /// The channel of that name, or null.
+  const std::vector<float>* find(const std::string& name) const;
+  std::vector<float>& add(const std::string& name);  // a new channel of zeros
+};
+
+}  // namespace tachylite

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "vulkan/device.h"
+
+namespace tachylite::vulkan {
+
+/// Who touches the memory: decides the memory type, and whether transfers go through a staging copy.
+enum class Domain {
+  kDevice,    // kernels only; the host reaches it by upload() and download()
+  kHost,      // host-visible and coherent, persistently mapped; kernels may read and write it too
+};
+
+/// A buffer with memory of its own; usable as storage, uniform, texel, indirect and transfer buffer, and with
+/// texel views of any number of formats. Movable. At least 16 bytes are allocated.
+class Buffer {
+ public:
+  Buffer() = default;
+  /// Throws RenderError that says the bytes needed when memory runs out.
+  Buffer(Device& device, uint64_t bytes, Domain domain = Domain::kDevice);
+  /// Makes a kDevice buffer that holds a copy of `data`.
+  template <class T>
+  Buffer(Device& device, std::span<const T> data) : Buffer(device, data.size_bytes()) {
+    upload(data.data(), data.size_bytes());
+  }
+  Buffer(Buffer&& other) noexcept;
+  Buffer& operator=(Buffer&& other) noexcept;
+  ~Buffer();
+
+  uint64_t size() const { return bytes_; }
+  VkBuffer handle() const { return buffer_; }
+  explicit operator bool() const { return buffer_ != VK_NULL_HANDLE; }
+
+  /// The mapped memory; null for a device-only buffer that is not host-visible.
+  void* mapped() const { return mapped_; }
+  /// Synchronous copies; they wait for the queue. offset + bytes <= size().
+  void upload(const void* source, uint64_t bytes, uint64_t offset = 0);
+  void download(void* target, uint64_t bytes, uint64_t offset = 0) const;
+  template <class T>
+  std::vector<T> download_all() const {
+    std::vector<T> values(bytes_ / sizeof(T));
+    download(values.data(), values.size() * sizeof(T));
+    return values;
+  }
+  /// The whole buffer as a texel buffer of that format; made on first use, owned by the buffer.
+  VkBufferView texel_view(VkFormat format) const;
+
+ private:
+  Device* device_ = nullptr;
+  uint64_t bytes_ = 0;
+  VkBuffer buffer_ = VK_NULL_HANDLE;
+  VkDeviceMemory memory_ = VK_NULL_HANDLE;
+  void* mapped_ = nullptr;
+  mutable std::vector<std::pair<VkFormat, VkBufferView>> views_;
+};
+
+}  // namespace tachylite::vulkan

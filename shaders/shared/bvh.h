@@ -1,0 +1,40 @@
+// The compressed 8-wide BVH and its leaves, as rows of 16 bytes. Written by host/accel/flatten_bvh8, read by
+// geometry/bvh.glsl.
+//
+// Node: kBvhNodeRows rows of uvec4 (80 bytes), after Ylitie, Karras and Laine 2017, "Efficient Incoherent Ray
+// Traversal on GPUs Through Compressed Wide BVHs", with one leaf primitive per leaf slot and sparse children
+// (child node = child_base * 8 + slot, so that a stack entry is one word):
+//   row 0: p.x, p.y, p.z (float bits: lower corner of the node's box); ex | ey << 8 | ez << 16 | inner_mask << 24,
+//          e = biased float exponent of the grid step of each axis
+//   row 1: child_base; leaf_base; curved_mask (8 bits: leaf slots that hold a curved primitive); leaf_mask (8 bits)
+//   row 2: lo_x of slots 0-3, 4-7; lo_y 0-3, 4-7          one byte a slot; box = p + q * 2^(e - 127)
+//   row 3: lo_z 0-3, 4-7; hi_x 0-3, 4-7
+//   row 4: hi_y 0-3, 4-7; hi_z 0-3, 4-7
+// An empty slot has lo = 255, hi = 0 on all axes: it is never hit when near and far are chosen by the sign of the
+// direction. The leaf of slot s is leaf_base + popcount(leaf_mask & ((1 << s) - 1)).
+//
+// Leaf: kBvhLeafRows rows of vec4 (48 bytes).
+//   Triangle pair: the vertices v0 v1 v2 v3 (12 floats in order). Triangle 0 is (v0, v1, v2), triangle 1 is
+//   (v0, v2, v3); a lone triangle has v3 = v2. Vertices are bit-equal to those of the meshes, so that edges shared
+//   between pairs are watertight.
+//   Curved: rows of the world-to-object transform (3 x 4); row r = (m_r0, m_r1, m_r2, translation_r). What shape it
+//   is in object space stands in the leaf's info (kCurved...).
+// Leaf info: one uvec4 a leaf: (primitive of triangle 0 or of the curved shape, primitive of triangle 1, kLeaf kind,
+// spare). A hit names 2 * leaf + triangle.
+#ifndef TACHYLITE_SHARED_BVH_H
+#define TACHYLITE_SHARED_BVH_H
+#include "interop.h"
+TACHYLITE_SHARED_BEGIN
+
+TACHYLITE_CONST uint kBvhNodeRows = 5u;
+TACHYLITE_CONST uint kBvhLeafRows = 3u;
+TACHYLITE_CONST uint kNoHit = 0xffffffffu;
+
+// Kinds of leaves.
+TACHYLITE_CONST uint kLeafTriangles = 0u;   // one or two triangles
+TACHYLITE_CONST uint kLeafSphere = 1u;      // unit sphere in object space
+TACHYLITE_CONST uint kLeafDisk = 2u;        // z = 0, x^2 + y^2 <= 1
+TACHYLITE_CONST uint kLeafCylinder = 3u;    // x^2 + y^2 = 1, 0 <= z <= 1
+
+TACHYLITE_SHARED_END
+#endif
