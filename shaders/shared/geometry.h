@@ -1,0 +1,36 @@
+// Records of shapes and primitives. All positions are in device space: world space translated by the scene's centre
+// (in double, on the host), so that float resolution lies where the scene is.
+//
+// Leaf info (kBindLeafInfo), one row a leaf: (primitive 0, primitive 1, kind | class << 8 | emits << 16, rotations).
+//   kind: kLeaf... of shared/bvh.h; class: queue of the material; emits: 1 where the shape is an area light.
+// Triangle (kBindTriangles), one row: (vertex 0, vertex 1, vertex 2, shape).
+// Curved primitive (kBindCurved), kCurvedRows rows of vec4: object-to-world rows 0..2 (3 x 4); (shape bits, kind
+//   bits, largest scale of the transform, unused).
+// Shape (kBindShapes), kShapeRows rows of uvec4:
+//   row 0: material (first row in kBindMaterials); light (first row in kBindLights, kNoIndex when none); flags;
+//          medium pair: interior | exterior << 16 (0xffff: none)
+//   row 1: first primitive; number of primitives; attribute row of the mesh; unused
+#ifndef TACHYLITE_SHARED_GEOMETRY_H
+#define TACHYLITE_SHARED_GEOMETRY_H
+#include "interop.h"
+TACHYLITE_SHARED_BEGIN
+
+TACHYLITE_CONST uint kNoIndex = 0xffffffffu;
+TACHYLITE_CONST uint kCurvedRows = 4u;
+TACHYLITE_CONST uint kShapeRows = 2u;
+
+// Flags of a shape.
+TACHYLITE_CONST uint kShapeFlipNormals = 1u;   // the geometric normal points the other way
+TACHYLITE_CONST uint kShapeHasUv = 2u;         // vertex uvs are given; else uv = barycentrics
+TACHYLITE_CONST uint kShapeHasNormals = 4u;    // vertex normals are given
+TACHYLITE_CONST uint kShapeIsBoundary = 8u;    // between media
+
+// Leaf info word z.
+TACHYLITE_CONST uint kLeafKindMask = 0xffu;
+TACHYLITE_CONST uint kLeafClassShift = 8u;
+TACHYLITE_CONST uint kLeafClassMask = 0xffu;
+TACHYLITE_CONST uint kLeafEmits = 1u << 16u;
+TACHYLITE_CONST uint kClassNone = 0xffu;       // absorbs everything: no surface queue
+
+TACHYLITE_SHARED_END
+#endif

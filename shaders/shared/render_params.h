@@ -1,0 +1,49 @@
+// What the whole render shares (uniform buffer) and what one wave has of its own (push constants).
+//
+// A wave is a set of paths that are traced together: `block_count` blocks of kBlockSamples samples of `pixel_count`
+// consecutive pixels in tile order. Path slot = (block * pixel_count + pixel) * kBlockSamples + sample.
+// A pixel in tile order counts through tiles of 8 x 8 pixels, row by row of tiles; those outside the image are idle.
+#ifndef TACHYLITE_SHARED_RENDER_PARAMS_H
+#define TACHYLITE_SHARED_RENDER_PARAMS_H
+#include "interop.h"
+TACHYLITE_SHARED_BEGIN
+
+TACHYLITE_CONST uint kBlockSamples = 4u;
+TACHYLITE_CONST uint kTileSize = 8u;
+
+// Perspective, thin lens and orthographic cameras. Device space = world space - centre.
+struct CameraParams {
+  vec4 right, up, forward, position;  // xyz; camera-space axes (+x is LEFT in Mitsuba: `right` is -x) and origin
+  // Film position (x, y) in pixels of the full film, y down -> camera-space point on the plane z = 1 (perspective)
+  // or offset on the film (orthographic): px = scale.x * x + offset.x, py = scale.y * y + offset.y (right, up).
+  vec4 scale_offset;
+  float near_clip, far_clip, aperture_radius, focus_distance;
+};
+
+struct RenderParams {
+  CameraParams camera;
+  uint width, height;       // of the image that is rendered (the crop)
+  uint crop_x, crop_y;      // where it begins in the full film
+  uint tiles_x, tile_count;
+  uint capacity;            // paths in flight: stride of the rows of the path state
+  uint seed;
+  uint class_count;         // material classes
+  uint light_count, light_rows_end;
+  float filter_radius, filter_stddev;
+  // Lights; see light/light.glsl
+  uint environment_light;   // first row of the environment's record, kNoIndex when there is none
+  float scene_radius;       // of the sphere around all geometry, centred at device-space origin + scene_centre
+  uint aov_count;
+  vec4 scene_centre;        // device space
+};
+
+struct WaveParams {
+  uint first_pixel, pixel_count;   // in tile order
+  uint first_block, block_count;
+  uint bounce;                     // 0: camera rays
+  uint ray_queue;                  // 0 or 1: which of the two ray queues holds this bounce's rays
+  uint unused0, unused1;
+};
+
+TACHYLITE_SHARED_END
+#endif
