@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "image/film.h"
+#include "pack/pack_scene.h"
+#include "vulkan/commands.h"
+#include "vulkan/device.h"
+
+namespace tachylite {
+
+enum class SamplerKind { kSobol, kIndependent };
+
+struct RenderProgress {
+  uint64_t samples = 0, target_samples = 0;  // per pixel
+  double fraction = 0;                       // of all paths, finer than samples
+  double seconds = 0, mpaths_per_s = 0;
+  double relative_error = 0;                 // Film::relative_error(), 0 while unknown
+};
+
+struct RenderOptions {
+  uint64_t samples = 16;        // per pixel
+  uint64_t first_sample = 0;    // multiple of kBlockSamples
+  uint32_t seed = 0;
+  SamplerKind sampler = SamplerKind::kSobol;
+  uint32_t max_paths = 262144;  // in flight
+  double time_limit = 0;        // seconds of rendering; 0: none. At least one block is rendered.
+  double error_limit = 0;       // Film::relative_error() to reach; 0: none
+  bool timing = false;          // timestamp queries around each kernel
+  /// Called now and then; returning false stops after the blocks that are finished.
+  std::function<bool(const RenderProgress&)> progress;
+};
+
+/// Device time and counts of a render.
+struct RenderStatistics {
+  uint64_t paths = 0, closest_rays = 0, shadow_rays = 0, nonfinite = 0, overflow = 0;
+  double upload_seconds = 0, compile_seconds = 0, render_seconds = 0;
+  uint64_t device_bytes = 0;
+  std::map<std::string, vulkan::KernelTime> kernels;
+};
+
+/// What a renderer would allocate, known before anything is allocated.
+struct MemoryPlan {
+  struct Entry {
+    std::string name;
+    uint64_t bytes = 0, limit = 0;  // limit of one buffer of its kind on the device
+  };
+  std::vector<Entry> buffers;
+  uint64_t total() const;
+};
+
+/// The wavefront path tracer: pipelines for the scene's FeatureSet, its buffers, and the loop of kernels.
+class Renderer {
+ public:
+  /// Uploads and builds the pipelines. Throws RenderError naming needed and available bytes when it cannot fit.
+  Renderer(vulkan::Device& device, const PackedScene& scene, const RenderOptions& options);
+  ~Renderer();
+
+  /// Renders until samples, time, error or the caller say stop; the image does not depend on max_paths.
+  Film render();
+
+  const RenderStatistics& statistics() const;
+  /// Stages that run for this scene, and those that it does not need.
+  std::vector<std::string> stages_run() const, stages_skipped() const;
+
+  static MemoryPlan plan_memory(const vulkan::DeviceInfo& device, const PackedScene& scene,
+                                const RenderOptions& options);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tachylite
