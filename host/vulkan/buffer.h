@@ -10,8 +10,8 @@ namespace tachylite::vulkan {
 
 /// Who touches the memory: decides the memory type, and whether transfers go through a staging copy.
 enum class Domain {
-  kDevice,    // kernels only; the host reaches it by upload() and download()
-  kHost,      // host-visible and coherent, persistently mapped; kernels may read and write it too
+  kDevice,  // kernels only; the host reaches it by upload() and download()
+  kHost,    // host-visible and coherent, persistently mapped; kernels may read and write it too
 };
 
 /// A buffer with memory of its own; usable as storage, uniform, texel, indirect and transfer buffer, and with
@@ -45,12 +45,16 @@ class Buffer {
     download(values.data(), values.size() * sizeof(T));
     return values;
   }
-  /// The whole buffer as a texel buffer of that format; made on first use, owned by the buffer.
+  /// The whole buffer as a texel buffer of that format; made on first use, owned by the buffer. The buffer
+  /// must hold at most the device's max_texel_buffer_elements of them (BindingTable checks it).
   VkBufferView texel_view(VkFormat format) const;
 
  private:
+  void destroy();
+
   Device* device_ = nullptr;
-  uint64_t bytes_ = 0;
+  uint64_t bytes_ = 0;      // as asked for
+  uint64_t allocated_ = 0;  // as allocated
   VkBuffer buffer_ = VK_NULL_HANDLE;
   VkDeviceMemory memory_ = VK_NULL_HANDLE;
   void* mapped_ = nullptr;

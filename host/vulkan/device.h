@@ -18,20 +18,23 @@ struct DeviceInfo {
   uint32_t max_workgroup_invocations = 0, max_workgroup_count_x = 0;
   uint64_t max_storage_buffer_range = 0, max_texel_buffer_elements = 0, max_uniform_buffer_range = 0;
   uint32_t max_push_constants = 0;
-  uint64_t device_memory = 0;       // of the largest device-local heap [bytes]
-  double timestamp_period_ns = 0;   // 0: no timestamps
-  std::string unusable;             // why it cannot run us (a missing feature); empty when it can
+  uint64_t device_memory = 0;      // of the largest device-local heap [bytes]
+  double timestamp_period_ns = 0;  // 0: no timestamps
+  std::string unusable;            // why it cannot run us (a missing feature); empty when it can
 };
 
-/// All devices of this machine, in Vulkan's order. Throws RenderError when there is no Vulkan loader or driver.
+/// All devices of this machine, in Vulkan's order. Throws RenderError when there is no Vulkan loader or
+/// driver.
 std::vector<DeviceInfo> list_devices();
 
 struct DeviceOptions {
-  std::string selector;     // index or a part of the name; empty: discrete GPU, else integrated, else CPU
-  bool validation = false;  // Khronos validation layer with synchronization checks; its messages are collected
+  std::string selector;  // index or a part of the name; empty: discrete GPU, else integrated, else CPU
+  bool validation =
+      false;  // Khronos validation layer with synchronization checks; its messages are collected
 };
 
-/// Instance, device and one compute queue. Everything made from it must be destroyed before it.
+/// Instance, device and one compute queue. Everything made from it must be destroyed before it, and is used
+/// by one thread at a time.
 class Device {
  public:
   /// Throws InputError for a selector that matches no device, RenderError naming the Vulkan call that failed.
@@ -50,12 +53,15 @@ class Device {
   VkQueue queue() const { return queue_; }
   uint32_t queue_family() const { return queue_family_; }
   /// A memory type that has all of `required` and, if any has them too, `preferred`.
-  uint32_t memory_type(uint32_t allowed, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) const;
-  uint64_t allocated_bytes() const;  // device memory held now through Buffer
+  uint32_t memory_type(uint32_t allowed, VkMemoryPropertyFlags required,
+                       VkMemoryPropertyFlags preferred) const;
+  uint64_t allocated_bytes() const { return allocated_bytes_; }  // device memory held now through Buffer
 
  private:
   friend class Buffer;
   struct Messages;
+  void destroy();
+
   DeviceInfo info_;
   VkInstance instance_ = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
@@ -63,6 +69,7 @@ class Device {
   VkDevice device_ = VK_NULL_HANDLE;
   VkQueue queue_ = VK_NULL_HANDLE;
   uint32_t queue_family_ = 0;
+  uint64_t allocated_bytes_ = 0;
   std::unique_ptr<Messages> messages_;
 };
 

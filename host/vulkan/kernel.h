@@ -13,11 +13,13 @@ enum class BindingKind { kUniform, kStorage, kTexel };  // kTexel: uniform (read
 struct Binding {
   uint32_t number = 0;
   BindingKind kind = BindingKind::kStorage;
-  const Buffer* buffer = nullptr;            // null: a small buffer of zeros stands in
-  VkFormat format = VK_FORMAT_UNDEFINED;     // kTexel only
+  const Buffer* buffer = nullptr;         // null: a small buffer of zeros stands in
+  VkFormat format = VK_FORMAT_UNDEFINED;  // kTexel only
 };
 
-/// One descriptor set (set 0) that all kernels of a renderer share. Buffers must outlive it.
+/// One descriptor set (set 0) that all kernels of a renderer share. Buffers must outlive it. Every binding is
+/// written: lavapipe crashes on sets with holes. Throws RenderError, with the bytes, for a buffer that is
+/// larger than the device's limit for that kind of binding.
 class BindingTable {
  public:
   BindingTable(Device& device, std::span<const Binding> bindings, uint32_t push_constant_bytes = 64);
@@ -30,6 +32,8 @@ class BindingTable {
   uint32_t push_constant_bytes() const { return push_constant_bytes_; }
 
  private:
+  void destroy();
+
   Device& device_;
   Buffer zeros_;
   uint32_t push_constant_bytes_ = 0;
