@@ -10,17 +10,24 @@
 //   row 2: lo_x of slots 0-3, 4-7; lo_y 0-3, 4-7          one byte a slot; box = p + q * 2^(e - 127)
 //   row 3: lo_z 0-3, 4-7; hi_x 0-3, 4-7
 //   row 4: hi_y 0-3, 4-7; hi_z 0-3, 4-7
-// An empty slot has lo = 255, hi = 0 on all axes: it is never hit when near and far are chosen by the sign of the
-// direction. The leaf of slot s is leaf_base + popcount(leaf_mask & ((1 << s) - 1)).
+// An empty slot has lo = 255, hi = 0 on all axes: it is not hit when near and far are chosen by the sign of the
+// direction, but far from a small node both may round to the same t, so hits are masked by inner_mask and leaf_mask.
+// The leaf of slot s is leaf_base + popcount(leaf_mask & ((1 << s) - 1)). Slots are octants: bit a of a slot
+// is set if the child lies on the positive side of axis a, so that a ray meets inner children from near to far in
+// descending order of slot ^ 7 ^ (sign bits of its direction).
+// No path from the root has more than kBvhMaxDepth nodes: a stack of kBvhMaxDepth + 1 words never overflows.
 //
 // Leaf: kBvhLeafRows rows of vec4 (48 bytes).
 //   Triangle pair: the vertices v0 v1 v2 v3 (12 floats in order). Triangle 0 is (v0, v1, v2), triangle 1 is
 //   (v0, v2, v3); a lone triangle has v3 = v2. Vertices are bit-equal to those of the meshes, so that edges shared
 //   between pairs are watertight.
 //   Curved: rows of the world-to-object transform (3 x 4); row r = (m_r0, m_r1, m_r2, translation_r). What shape it
-//   is in object space stands in the leaf's info (kCurved...).
+//   is in object space stands in the leaf's info (kLeaf...).
 // Leaf info: one uvec4 a leaf: (primitive of triangle 0 or of the curved shape, primitive of triangle 1, kLeaf kind,
-// spare). A hit names 2 * leaf + triangle.
+// rotations). A lone triangle or curved shape stands in both primitive words. A hit names 2 * leaf + triangle.
+// Winding is that of the mesh, but a leaf's triangle may begin at another vertex: its vertex k is vertex (k + r) % 3 of
+// the mesh's triangle, r = bits 0-1 of the rotations for triangle 0, bits 2-3 for triangle 1. So with the leaf's
+// barycentrics (l0, l1, l2) the mesh's (b1, b2) are (l1, l2) for r = 0, (l0, l1) for r = 1, (l2, l0) for r = 2.
 #ifndef TACHYLITE_SHARED_BVH_H
 #define TACHYLITE_SHARED_BVH_H
 #include "interop.h"
@@ -28,6 +35,7 @@ TACHYLITE_SHARED_BEGIN
 
 TACHYLITE_CONST uint kBvhNodeRows = 5u;
 TACHYLITE_CONST uint kBvhLeafRows = 3u;
+TACHYLITE_CONST uint kBvhMaxDepth = 31u;
 TACHYLITE_CONST uint kNoHit = 0xffffffffu;
 
 // Kinds of leaves.

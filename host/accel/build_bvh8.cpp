@@ -1,0 +1,179 @@
+#include <cmath>
+#include <limits>
+
+#include "accel/binary_bvh.h"
+#include "accel/bvh.h"
+#include "accel/flatten_bvh8.h"
+#include "accel/pair_triangles.h"
+#include "base/check.h"
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/timer.h"
+
+namespace tachylite {
+namespace {
+
+constexpr size_t kGrain = 1 << 14;
+constexpr double kMaxAreaRatio = 1.0;  // of a pair's box to the boxes of its triangles
+
+Box box_of(const glm::dvec3& lo, const glm::dvec3& hi) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  Box b;
+  for (int a = 0; a < 3; ++a) {
+    float l = static_cast<float>(lo[a]), h = static_cast<float>(hi[a]);
+    if (l > lo[a]) l = std::nextafter(l, -kInfinity);
+    if (h < hi[a]) h = std::nextafter(h, kInfinity);
+    b.lo[a] = l;
+    b.hi[a] = h;
+  }
+  return b;
+}
+
+/// Bounds of M's image of the unit sphere, disk or cylinder, rounded outwards: the extent of M(ball) along
+/// axis a is the norm of row a of M's linear part, over those columns in which the shape is round.
+Box curved_box(const CurvedPrimitive& c) {
+  const glm::dmat4& m = c.object_to_world;
+  const glm::dvec3 x(m[0]), y(m[1]), z(m[2]), p(m[3]);
+  glm::dvec3 r;
+  for (int a = 0; a < 3; ++a)
+    r[a] = c.kind == gpu::kLeafSphere ? std::sqrt(x[a] * x[a] + y[a] * y[a] + z[a] * z[a])
+                                      : std::hypot(x[a], y[a]);
+  r *= 1 + 4 * std::numeric_limits<double>::epsilon();
+  const glm::dvec3 top = c.kind == gpu::kLeafCylinder ? p + z : p;
+  return box_of(glm::min(p, top) - r, glm::max(p, top) + r);
+}
+
+void check_curved(const BvhInput& input) {
+  for (size_t i = 0; i < input.curved.size(); ++i) {
+    const CurvedPrimitive& c = input.curved[i];
+    CHECK(c.kind >= gpu::kLeafSphere && c.kind <= gpu::kLeafCylinder);
+    const double det = glm::determinant(glm::dmat3(c.object_to_world));
+    if (!(std::abs(det) > 0) || !std::isfinite(det))
+      throw InputError(fmt::format("curved primitive {}: its transform cannot be inverted", i));
+    const Box b = curved_box(c);
+    for (int a = 0; a < 3; ++a)
+      if (!(b.lo[a] >= -kMaxCoordinate && b.hi[a] <= kMaxCoordinate))
+        throw InputError(fmt::format("curved primitive {}: it reaches beyond {}", i, kMaxCoordinate));
+  }
+}
+
+struct LeafVertices {
+  std::array<glm::vec3, 4> v;
+};
+
+LeafVertices pair_vertices(const BvhInput& input, const TrianglePair& pair) {
+  const glm::uvec3 a = input.triangles[pair.first];
+  const uint32_t r0 = pair.rotation & 3, r1 = pair.rotation >> 2;
+  const auto vertex = [&](const glm::uvec3& t, uint32_t k) {
+    return input.vertices[t[static_cast<int>(k % 3)]];
+  };
+  const glm::vec3 v2 = vertex(a, 2 + r0);
+  return {{vertex(a, r0), vertex(a, 1 + r0), v2,
+           pair.second == TrianglePair::kNoTriangle ? v2 : vertex(input.triangles[pair.second], 2 + r1)}};
+}
+
+std::vector<BinaryNode> bound_primitives(const BvhInput& input, const std::vector<TrianglePair>& pairs) {
+  std::vector<BinaryNode> primitives(pairs.size() + input.curved.size());
+  parallel_for(0, primitives.size(), kGrain, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      Box b;
+      if (i < pairs.size())
+        for (const glm::vec3& v : pair_vertices(input, pairs[i]).v) b.grow(Lanes{v.x, v.y, v.z, 0});
+      else
+        b = curved_box(input.curved[i - pairs.size()]);
+      primitives[i].set_box(b);
+      primitives[i].first = static_cast<uint32_t>(i);
+      primitives[i].is_leaf = 1;
+    }
+  });
+  return primitives;
+}
+
+void write_leaves(const BvhInput& input, const std::vector<TrianglePair>& pairs,
+                  const std::vector<uint32_t>& leaf_primitives, Bvh8& bvh) {
+  bvh.leaves.resize(leaf_primitives.size() * gpu::kBvhLeafRows);
+  bvh.leaf_info.resize(leaf_primitives.size());
+  parallel_for(0, leaf_primitives.size(), kGrain, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      glm::vec4* row = &bvh.leaves[i * gpu::kBvhLeafRows];
+      const uint32_t primitive = leaf_primitives[i];
+      if (primitive < pairs.size()) {
+        const TrianglePair& pair = pairs[primitive];
+        const auto v = pair_vertices(input, pair).v;
+        row[0] = {v[0], v[1].x};
+        row[1] = {v[1].y, v[1].z, v[2].x, v[2].y};
+        row[2] = {v[2].z, v[3]};
+        const bool lone = pair.second == TrianglePair::kNoTriangle;
+        bvh.leaf_info[i] = {pair.first, lone ? pair.first : pair.second, gpu::kLeafTriangles,
+                            lone ? pair.rotation * 5 : pair.rotation};
+      } else {
+        const size_t c = primitive - pairs.size();
+        const glm::dmat4 inverse = glm::inverse(input.curved[c].object_to_world);
+        for (int r = 0; r < 3; ++r)
+          row[r] = glm::vec4(inverse[0][r], inverse[1][r], inverse[2][r], inverse[3][r]);
+        const auto number = static_cast<uint32_t>(input.triangles.size() + c);
+        bvh.leaf_info[i] = {number, number, input.curved[c].kind, 0};
+      }
+    }
+  });
+}
+
+}  // namespace
+
+Bvh8 build_bvh8(const BvhInput& input, const BvhSettings& settings) {
+  CHECK_LT(input.triangles.size() + input.curved.size(), size_t{1} << 31);
+  Bvh8 bvh;
+  BvhStatistics& stats = bvh.statistics;
+
+  Timer timer;
+  check_curved(input);
+  const Pairing pairing = pair_triangles(input, kMaxAreaRatio);
+  const size_t leaves = pairing.pairs.size() + input.curved.size();
+  std::vector<uint8_t> is_curved(leaves, 0);
+  std::fill(is_curved.begin() + static_cast<ptrdiff_t>(pairing.pairs.size()), is_curved.end(), uint8_t{1});
+  stats.pair_seconds = timer.seconds();
+
+  timer = Timer();
+  constexpr int kMaxBinaryDepth = 96;
+  BinaryBvh binary = build_binary_bvh(bound_primitives(input, pairing.pairs), settings.bins, kMaxBinaryDepth);
+  const ExpectedVisits visits = expected_visits(binary);
+  stats.build_seconds = timer.seconds();
+
+  timer = Timer();
+  FlatNodes flat = flatten_bvh8(binary, is_curved);
+  if (flat.depth > static_cast<int>(gpu::kBvhMaxDepth)) {
+    // A wide tree is never deeper than the binary one.
+    binary = build_binary_bvh(bound_primitives(input, pairing.pairs), settings.bins, gpu::kBvhMaxDepth);
+    flat = flatten_bvh8(binary, is_curved);
+  }
+  CHECK_LE(flat.depth, static_cast<int>(gpu::kBvhMaxDepth));
+  bvh.nodes = std::move(flat.rows);
+  write_leaves(input, pairing.pairs, flat.leaf_primitives, bvh);
+  stats.flatten_seconds = timer.seconds();
+
+  if (leaves) {
+    const Box box = binary.nodes[BinaryBvh::kRoot].box();
+    bvh.box_min = {box.lo[0], box.lo[1], box.lo[2]};
+    bvh.box_max = {box.hi[0], box.hi[1], box.hi[2]};
+  }
+  stats.triangles = input.triangles.size();
+  stats.dropped = pairing.dropped;
+  stats.leaves = leaves;
+  stats.pairs = input.triangles.size() - pairing.dropped - pairing.pairs.size();
+  stats.curved = input.curved.size();
+  stats.nodes2 = leaves ? leaves - 1 : 0;
+  stats.nodes8 = flat.nodes;
+  stats.sah_cost2 = settings.traversal_cost * visits.inner + settings.intersection_cost * visits.leaves;
+  stats.sah_cost8 =
+      settings.traversal_cost * flat.node_visits + settings.intersection_cost * flat.leaf_visits;
+  stats.node_visits8 = flat.node_visits;
+  stats.leaf_visits8 = flat.leaf_visits;
+  stats.depth8 = flat.depth;
+  stats.children_per_node = static_cast<double>(flat.children) / static_cast<double>(flat.nodes);
+  stats.node_bytes = bvh.nodes.size() * sizeof bvh.nodes[0];
+  stats.leaf_bytes =
+      bvh.leaves.size() * sizeof bvh.leaves[0] + bvh.leaf_info.size() * sizeof bvh.leaf_info[0];
+  return bvh;
+}
+
+}  // namespace tachylite

@@ -1,0 +1,250 @@
+#include "accel/pair_triangles.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "accel/box.h"
+#include "base/check.h"
+#include "base/error.h"
+#include "base/parallel.h"
+
+namespace tachylite {
+namespace {
+
+constexpr uint32_t kNone = 0xffffffffu;
+constexpr size_t kGrain = 1 << 14;
+
+Lanes lanes(const glm::vec3& v) {
+  return Lanes{v.x, v.y, v.z, 0};
+}
+
+Box triangle_box(const BvhInput& input, uint32_t t) {
+  const glm::uvec3 v = input.triangles[t];
+  Box b;
+  for (int k = 0; k < 3; ++k) b.grow(lanes(input.vertices[v[k]]));
+  return b;
+}
+
+bool has_area(const BvhInput& input, uint32_t t) {
+  const glm::uvec3 v = input.triangles[t];
+  const glm::dvec3 a(input.vertices[v.x]), b(input.vertices[v.y]), c(input.vertices[v.z]);
+  const glm::dvec3 n = glm::cross(b - a, c - a);
+  return n.x != 0 || n.y != 0 || n.z != 0;
+}
+
+void check_vertices(const BvhInput& input) {
+  parallel_for(0, input.triangles.size(), kGrain, [&](size_t first, size_t last) {
+    for (size_t t = first; t < last; ++t)
+      for (int k = 0; k < 3; ++k) {
+        CHECK_LT(input.triangles[t][k], input.vertices.size());
+        const glm::vec3 p = input.vertices[input.triangles[t][k]];
+        for (int a = 0; a < 3; ++a)
+          if (!(std::abs(p[a]) <= kMaxCoordinate))
+            throw InputError(fmt::format("triangle {}: coordinate {} is not finite or too large (at most {})",
+                                         t, p[a], kMaxCoordinate));
+      }
+  });
+}
+
+/// For each vertex the lowest-numbered vertex of the same bits. Open addressing; which thread comes first
+/// changes the table but not the answer.
+std::vector<uint32_t> find_representatives(std::span<const glm::vec3> vertices) {
+  const size_t n = vertices.size();
+  const size_t mask = std::bit_ceil(std::max<size_t>(2 * n, 16)) - 1;
+  std::vector<uint32_t> table(mask + 1, kNone), representative(n);
+  const auto slot_of = [&](const glm::vec3& p) {
+    uint32_t bits[3];
+    std::memcpy(bits, &p, sizeof bits);
+    uint64_t h = 0;
+    for (uint32_t b : bits) h = (h ^ b) * 0x9e3779b97f4a7c15ull, h ^= h >> 32;
+    return h & mask;
+  };
+  const auto equal = [&](uint32_t a, uint32_t b) {
+    return !std::memcmp(&vertices[a], &vertices[b], sizeof(glm::vec3));
+  };
+
+  parallel_for(0, n, kGrain, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      const auto v = static_cast<uint32_t>(i);
+      for (size_t s = slot_of(vertices[v]);; s = (s + 1) & mask) {
+        std::atomic_ref<uint32_t> slot(table[s]);
+        uint32_t held = slot.load(std::memory_order_relaxed);
+        if (held == kNone && slot.compare_exchange_strong(held, v, std::memory_order_relaxed)) break;
+        if (!equal(held, v)) continue;
+        while (v < held && !slot.compare_exchange_weak(held, v, std::memory_order_relaxed)) {
+        }
+        break;
+      }
+    }
+  });
+  parallel_for(0, n, kGrain, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      size_t s = slot_of(vertices[i]);
+      while (!equal(table[s], static_cast<uint32_t>(i))) s = (s + 1) & mask;
+      representative[i] = table[s];
+    }
+  });
+  return representative;
+}
+
+/// Half edge 3t + e goes from vertex e to vertex e + 1 of triangle t. Its partner is the half edge that runs
+/// the other way; where more than two triangles meet in an edge, partners are taken in the order of the
+/// triangles.
+class Matcher {
+ public:
+  Matcher(const BvhInput& input, double max_area_ratio)
+      : input_(input),
+        max_area_ratio_(static_cast<float>(max_area_ratio)),
+        partner_(3 * input.triangles.size(), kNone),
+        gain_(3 * input.triangles.size()),
+        mate_(input.triangles.size(), kNone) {}
+
+  Pairing run() {
+    find_partners(find_representatives(input_.vertices));
+    match();
+    return collect();
+  }
+
+ private:
+  static uint32_t edge_end(uint32_t e) { return e == 2 ? 0 : e + 1; }
+
+  void find_partners(const std::vector<uint32_t>& vertex) {
+    const size_t triangles = input_.triangles.size();
+    // Bucket the half edges by their lower vertex: upper vertex << 32 | half edge << 1 | runs downwards.
+    std::vector<uint32_t> bucket(input_.vertices.size() + 1, 0);
+    const auto for_half_edges = [&](const auto& body) {
+      parallel_for(0, triangles, kGrain, [&](size_t first, size_t last) {
+        for (size_t t = first; t < last; ++t) {
+          if (!has_area(input_, static_cast<uint32_t>(t))) continue;
+          const glm::uvec3 v = input_.triangles[t];
+          for (uint32_t e = 0; e < 3; ++e)
+            body(static_cast<uint32_t>(3 * t + e), vertex[v[e]], vertex[v[edge_end(e)]]);
+        }
+      });
+    };
+    for_half_edges([&](uint32_t, uint32_t from, uint32_t to) {
+      std::atomic_ref<uint32_t>(bucket[std::min(from, to) + 1]).fetch_add(1, std::memory_order_relaxed);
+    });
+    for (size_t v = 1; v < bucket.size(); ++v) bucket[v] += bucket[v - 1];
+    std::vector<uint64_t> edges(bucket.back());
+    for_half_edges([&](uint32_t half_edge, uint32_t from, uint32_t to) {
+      const uint32_t at =
+          std::atomic_ref<uint32_t>(bucket[std::min(from, to)]).fetch_add(1, std::memory_order_relaxed);
+      edges[at] = static_cast<uint64_t>(std::max(from, to)) << 32 | static_cast<uint64_t>(half_edge) << 1 |
+                  (from > to);
+    });
+    // Now bucket[v] is the end of v's half edges. Sorting makes their order independent of the threads.
+    parallel_for(0, input_.vertices.size(), kGrain, [&](size_t first, size_t last) {
+      for (size_t v = first; v < last; ++v) {
+        const auto begin = edges.begin() + (v ? bucket[v - 1] : 0), end = edges.begin() + bucket[v];
+        std::sort(begin, end);
+        for (auto run = begin; run != end;) {
+          auto run_end = run;
+          while (run_end != end && *run_end >> 32 == *run >> 32) ++run_end;
+          auto up = run, down = run;
+          for (;; ++up, ++down) {
+            while (up != run_end && *up & 1) ++up;
+            while (down != run_end && !(*down & 1)) ++down;
+            if (up == run_end || down == run_end) break;
+            consider(static_cast<uint32_t>(*up) >> 1, static_cast<uint32_t>(*down) >> 1);
+          }
+          run = run_end;
+        }
+      }
+    });
+  }
+
+  void consider(uint32_t a, uint32_t b) {
+    const uint32_t s = a / 3, t = b / 3;
+    if (s == t || (!input_.groups.empty() && input_.groups[s] != input_.groups[t])) return;
+    const Box box_s = triangle_box(input_, s), box_t = triangle_box(input_, t);
+    const float apart = half_area(box_s) + half_area(box_t), together = half_area(merge(box_s, box_t));
+    if (together > max_area_ratio_ * apart) return;
+    partner_[a] = b;
+    partner_[b] = a;
+    gain_[a] = gain_[b] = max_area_ratio_ * apart - together;
+  }
+
+  /// The half edge of t with the greatest gain towards an unmatched triangle; ties go to the lower edge
+  /// number, so that edges are totally ordered.
+  uint32_t best_half_edge(uint32_t t) const {
+    uint32_t best = kNone, best_name = kNone;
+    for (uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+      const uint32_t p = partner_[h];
+      if (p == kNone || mate_[p / 3] != kNone) continue;
+      const uint32_t name = std::min(h, p);
+      if (best == kNone || gain_[h] > gain_[best] || (gain_[h] == gain_[best] && name < best_name)) {
+        best = h;
+        best_name = name;
+      }
+    }
+    return best;
+  }
+
+  /// Rounds of matching all edges that are the best of both their triangles (the matching of the globally
+  /// greedy order); a long chain of ever better edges would take as many rounds, so the rest goes one by one.
+  void match() {
+    std::vector<uint32_t> open, best(input_.triangles.size(), kNone);
+    for (size_t t = 0; t < input_.triangles.size(); ++t) open.push_back(static_cast<uint32_t>(t));
+    for (int round = 0; round < 12 && !open.empty(); ++round) {
+      parallel_for(0, open.size(), kGrain, [&](size_t first, size_t last) {
+        for (size_t i = first; i < last; ++i) best[open[i]] = best_half_edge(open[i]);
+      });
+      parallel_for(0, open.size(), kGrain, [&](size_t first, size_t last) {
+        for (size_t i = first; i < last; ++i) {
+          const uint32_t h = best[open[i]];
+          if (h != kNone && best[partner_[h] / 3] == partner_[h]) mate_[open[i]] = h;
+        }
+      });
+      std::erase_if(open, [&](uint32_t t) { return best[t] == kNone || mate_[t] != kNone; });
+    }
+    for (uint32_t t : open) {
+      if (mate_[t] != kNone) continue;
+      const uint32_t h = best_half_edge(t);
+      if (h == kNone) continue;
+      mate_[t] = h;
+      mate_[partner_[h] / 3] = partner_[h];
+    }
+  }
+
+  Pairing collect() const {
+    Pairing result;
+    result.pairs.reserve(input_.triangles.size() / 2 + 1);
+    for (size_t i = 0; i < input_.triangles.size(); ++i) {
+      const auto t = static_cast<uint32_t>(i);
+      const uint32_t h = mate_[t];
+      if (h == kNone) {
+        if (has_area(input_, t))
+          result.pairs.push_back({t, TrianglePair::kNoTriangle, 0});
+        else
+          ++result.dropped;
+        continue;
+      }
+      const uint32_t p = partner_[h];
+      if (p / 3 < t) continue;
+      // The shared edge closes the first triangle (v2 -> v0) and opens the second (v0 -> v2).
+      result.pairs.push_back({t, p / 3, edge_end(h % 3) | (p % 3) << 2});
+    }
+    return result;
+  }
+
+  const BvhInput& input_;
+  const float max_area_ratio_;
+  std::vector<uint32_t> partner_;  // of each half edge
+  std::vector<float> gain_;        // of each half edge with a partner [area]
+  std::vector<uint32_t> mate_;     // of each triangle: its half edge to the triangle it is paired with
+};
+
+}  // namespace
+
+Pairing pair_triangles(const BvhInput& input, double max_area_ratio) {
+  CHECK_LT(input.triangles.size(), size_t{0xffffffffu} / 6);
+  CHECK(input.groups.empty() || input.groups.size() == input.triangles.size());
+  check_vertices(input);
+  return Matcher(input, max_area_ratio).run();
+}
+
+}  // namespace tachylite

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "accel/bvh.h"
+
+namespace tachylite {
+
+/// Two triangles with a common edge, of equal winding, or one alone (then second == kNoTriangle).
+/// In the order of shared/bvh.h, vertex k of a leaf's triangle is vertex (k + rotation) % 3 of the mesh's.
+struct TrianglePair {
+  static constexpr uint32_t kNoTriangle = 0xffffffffu;
+  uint32_t first = kNoTriangle, second = kNoTriangle;
+  uint32_t rotation = 0;  // of the first in bits 0-1, of the second in bits 2-3
+};
+
+struct Pairing {
+  std::vector<TrianglePair> pairs;  // in the order of their first triangles
+  uint64_t dropped = 0;             // triangles of area 0 (in double precision)
+};
+
+/// Matches triangles greedily along shared edges, the edge that saves most surface area of boxes first. An
+/// edge is shared if its end points are equal bit for bit. Pairs whose box has a larger area than
+/// `max_area_ratio` times the sum of both triangles' boxes are not made. Deterministic. Throws InputError on
+/// a coordinate that is not finite or larger than kMaxCoordinate.
+Pairing pair_triangles(const BvhInput& input, double max_area_ratio);
+
+}  // namespace tachylite
