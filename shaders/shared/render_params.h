@@ -42,7 +42,8 @@ struct WaveParams {
   uint first_block, block_count;
   uint bounce;                     // 0: camera rays
   uint ray_queue;                  // 0 or 1: which of the two ray queues holds this bounce's rays
-  uint unused0, unused1;
+  uint mode;                       // of prepare_dispatch
+  uint unused;
 };
 
 TACHYLITE_SHARED_END

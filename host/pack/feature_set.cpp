@@ -1,0 +1,101 @@
+#include "pack/feature_set.h"
+
+#include <algorithm>
+
+#include "shared/material.h"
+#include "shared/texture.h"
+
+namespace tachylite {
+namespace {
+
+struct Named {
+  bool present;
+  const char* name;
+};
+
+std::vector<Named> named_features(const FeatureSet& f) {
+  const auto light = [&](uint32_t kind) { return f.has_light(kind); };
+  const auto material = [&](uint32_t flag) {
+    return std::any_of(f.classes.begin(), f.classes.end(), [&](const MaterialClass& c) { return (c.flags & flag) != 0; });
+  };
+  return {{f.triangles, "triangles"},
+          {f.curved, "spheres, disks and cylinders"},
+          {f.vertex_normals, "vertex normals"},
+          {f.vertex_uv, "texture coordinates"},
+          {(f.textures & gpu::kTexturesBitmap) != 0, "bitmap textures"},
+          {(f.textures & gpu::kTexturesCheckerboard) != 0, "checkerboards"},
+          {(f.textures & gpu::kTexturesAttribute) != 0, "mesh attributes"},
+          {material(gpu::kMaterialHasWeights), "blended or masked materials"},
+          {material(gpu::kMaterialHasFrames), "normal or bump maps"},
+          {f.classes.size() > 1, "several material classes"},
+          {f.area_lights(), "area lights"},
+          {light(gpu::kLightPoint), "point lights"},
+          {light(gpu::kLightSpot), "spot lights"},
+          {light(gpu::kLightDirectional), "directional lights"},
+          {light(gpu::kLightProjector), "projectors"},
+          {light(gpu::kLightConstant), "constant environment"},
+          {light(gpu::kLightEnvironment), "environment map"},
+          {f.selection > gpu::kSelectSingle, "choice among lights"},
+          {f.camera == gpu::kCameraThinLens, "lens"},
+          {f.roulette_depth < f.max_depth, "Russian roulette"},
+          {f.media != 0, "media"},
+          {f.aovs != 0, "auxiliary channels"}};
+}
+
+}  // namespace
+
+bool FeatureSet::area_lights() const {
+  return has_light(gpu::kLightTriangles) || has_light(gpu::kLightRectangle) || has_light(gpu::kLightSphere) ||
+         has_light(gpu::kLightDisk) || has_light(gpu::kLightCylinder);
+}
+
+bool FeatureSet::environment() const {
+  return has_light(gpu::kLightConstant) || has_light(gpu::kLightEnvironment);
+}
+
+std::map<uint32_t, uint32_t> FeatureSet::constants() const {
+  return {{gpu::kFeatureCurved, curved},
+          {gpu::kFeatureTriangles, triangles},
+          {gpu::kFeatureVertexNormals, vertex_normals},
+          {gpu::kFeatureVertexUv, vertex_uv},
+          {gpu::kFeatureClassCount, static_cast<uint32_t>(classes.size())},
+          {gpu::kFeatureCamera, camera},
+          {gpu::kFeatureFilter, filter},
+          {gpu::kFeatureMaxDepth, max_depth},
+          {gpu::kFeatureRouletteDepth, roulette_depth},
+          {gpu::kFeatureHideEmitters, hide_emitters},
+          {gpu::kFeatureStrategy, strategy},
+          {gpu::kFeatureLights, lights},
+          {gpu::kFeatureSelection, selection},
+          {gpu::kFeatureLightTextures, light_textures},
+          {gpu::kFeatureTextures, textures},
+          {gpu::kFeatureMedia, media},
+          {gpu::kFeatureShadowNull, shadow_null},
+          {gpu::kFeatureAov, aovs}};
+}
+
+std::map<uint32_t, uint32_t> FeatureSet::class_constants(size_t index) const {
+  std::map<uint32_t, uint32_t> values = constants();
+  const MaterialClass& c = classes[index];
+  values[gpu::kFeatureBsdfs] = c.bsdfs;
+  values[gpu::kFeatureMaterial] = c.flags;
+  values[gpu::kFeatureMaxLeaves] = c.max_leaves;
+  values[gpu::kFeatureClass] = static_cast<uint32_t>(index);
+  return values;
+}
+
+std::vector<std::string> FeatureSet::present() const {
+  std::vector<std::string> names;
+  for (const Named& n : named_features(*this))
+    if (n.present) names.push_back(n.name);
+  return names;
+}
+
+std::vector<std::string> FeatureSet::absent() const {
+  std::vector<std::string> names;
+  for (const Named& n : named_features(*this))
+    if (!n.present) names.push_back(n.name);
+  return names;
+}
+
+}  // namespace tachylite

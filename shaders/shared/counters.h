@@ -1,0 +1,39 @@
+// Queue lengths, indirect dispatch arguments and counts of a wave, as words of kBindCounters. The queues themselves
+// lie in kBindQueues: queue q begins at q * capacity.
+#ifndef TACHYLITE_SHARED_COUNTERS_H
+#define TACHYLITE_SHARED_COUNTERS_H
+#include "interop.h"
+TACHYLITE_SHARED_BEGIN
+
+// Queues of path slots.
+TACHYLITE_CONST uint kQueueRays0 = 0u;     // rays of even bounces
+TACHYLITE_CONST uint kQueueRays1 = 1u;     // rays of odd bounces
+TACHYLITE_CONST uint kQueueEmitter = 2u;   // hits on area lights
+TACHYLITE_CONST uint kQueueEscaped = 3u;   // rays that left the scene, if it has an environment
+TACHYLITE_CONST uint kQueueSurface = 4u;   // first of one queue a material class
+TACHYLITE_CONST uint kMaxClasses = 24u;
+TACHYLITE_CONST uint kMaxQueues = kQueueSurface + kMaxClasses;
+
+// Words of the counters buffer.
+TACHYLITE_CONST uint kCounterQueue = 0u;                        // length of each queue
+TACHYLITE_CONST uint kCounterShadow = kMaxQueues;               // shadow rays of this bounce
+TACHYLITE_CONST uint kCounterClosestTotal = kMaxQueues + 1u;    // rays traced since the host last reset them
+TACHYLITE_CONST uint kCounterShadowTotal = kMaxQueues + 2u;
+TACHYLITE_CONST uint kCounterNonfinite = kMaxQueues + 3u;       // contributions dropped: NaN or infinite
+TACHYLITE_CONST uint kCounterOverflow = kMaxQueues + 4u;        // stacks or queues that were full
+TACHYLITE_CONST uint kCounterArguments = kMaxQueues + 8u;       // (x, y, z) of each dispatch below, 4 words apart
+
+// Indirect dispatches.
+TACHYLITE_CONST uint kDispatchClosest = 0u;
+TACHYLITE_CONST uint kDispatchShadow = 1u;
+TACHYLITE_CONST uint kDispatchQueue = 2u;                       // + queue: one lane an entry
+TACHYLITE_CONST uint kCounterWords = kCounterArguments + 4u * (kDispatchQueue + kMaxQueues);
+
+TACHYLITE_CONST uint kWorkgroupSize = 64u;
+
+// Modes of prepare_dispatch.
+TACHYLITE_CONST uint kPrepareTrace = 0u;   // after rays were queued: sizes intersect_closest and intersect_shadow
+TACHYLITE_CONST uint kPrepareShade = 1u;   // after intersect_closest: sizes the shading stages
+
+TACHYLITE_SHARED_END
+#endif
