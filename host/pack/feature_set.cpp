@@ -80,6 +80,7 @@ std::map<uint32_t, uint32_t> FeatureSet::class_constants(size_t index) const {
   values[gpu::kFeatureBsdfs] = c.bsdfs;
   values[gpu::kFeatureMaterial] = c.flags;
   values[gpu::kFeatureMaxLeaves] = c.max_leaves;
+  values[gpu::kFeatureTexturedInputs] = c.textured;
   values[gpu::kFeatureClass] = static_cast<uint32_t>(index);
   return values;
 }

@@ -9,11 +9,13 @@
 
 namespace tachylite {
 
-/// A group of materials that one shade_surface pipeline serves: those with the same leaf types and flags.
+/// A group of materials that one shade_surface pipeline serves: those with the same leaf types, flags and textured
+/// inputs. bsdfs = 1 << kBsdfNull alone: only `null`.
 struct MaterialClass {
   uint32_t bsdfs = 0;       // set of 1 << kBsdf...
   uint32_t flags = 0;       // kMaterial...
-  uint32_t max_leaves = 0;
+  uint32_t max_leaves = 0;  // other than null, in one list
+  uint32_t textured = 0;    // kFeatureTexturedInputs
   bool operator==(const MaterialClass&) const = default;
 };
 

@@ -24,6 +24,7 @@ layout(constant_id = kFeatureTextures) const uint texture_kinds = 0xffffffffu;
 layout(constant_id = kFeatureBsdfs) const uint bsdf_types = 0xffffffffu;
 layout(constant_id = kFeatureMaterial) const uint material_flags = 0xffffffffu;
 layout(constant_id = kFeatureMaxLeaves) const uint max_leaves = 4u;
+layout(constant_id = kFeatureTexturedInputs) const uint textured_inputs = 0xffffffffu;
 layout(constant_id = kFeatureClass) const uint material_class = 0u;
 layout(constant_id = kFeatureMedia) const uint media_kinds = 0u;
 layout(constant_id = kFeatureShadowNull) const bool shadow_passes_null = false;
@@ -33,6 +34,7 @@ layout(constant_id = kFeatureTriangles) const bool has_triangles = true;
 bool has_bsdf(uint type) { return (bsdf_types & (1u << type)) != 0u; }
 bool has_light(uint kind) { return (light_kinds & (1u << kind)) != 0u; }
 bool has_texture(uint feature) { return (texture_kinds & feature) != 0u; }
+bool has_textured_input(uint inputs) { return (textured_inputs & inputs) != 0u; }
 bool has_material(uint flag) { return (material_flags & flag) != 0u; }
 
 #endif

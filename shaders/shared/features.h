@@ -31,6 +31,7 @@ TACHYLITE_CONST uint kFeatureBsdfs = 16u;         // uint: set of 1 << kBsdf...
 TACHYLITE_CONST uint kFeatureMaterial = 17u;      // uint: kMaterial... flags
 TACHYLITE_CONST uint kFeatureMaxLeaves = 18u;     // uint
 TACHYLITE_CONST uint kFeatureClass = 19u;         // uint: which queue
+TACHYLITE_CONST uint kFeatureTexturedInputs = 23u; // uint: which inputs of the class's leaves may be textures
 // Media
 TACHYLITE_CONST uint kFeatureMedia = 20u;         // uint: set of kMedia...; 0: none
 TACHYLITE_CONST uint kFeatureShadowNull = 21u;    // bool: shadow rays pass null surfaces

@@ -1,17 +1,19 @@
 // Materials, flattened from the scene's tree of bsdfs into leaves with weights, so that a kernel needs no recursion.
 // Written by host/pack/pack_material, read by bsdf/bsdf.glsl. Rows of uvec4 (floats by their bits) in kBindMaterials.
 //
-// f(wo, wi) of a material = sum over its leaves of weight_i * f_i. `mask` and `paper` are a `null` leaf (light goes
-// straight on) beside the others; `blendbsdf` multiplies weights; `twosided` sets the sides a leaf serves.
+// f(wo, wi) of a material = sum over its leaves of weight_i * f_i, plus a `null` part that lets light straight on,
+// whose weight is 1 - sum of weight_i (`mask`, `paper`, `blendbsdf` keep the sum of all weights at 1). Two lists of
+// leaves, for a viewer in front (cos_wo > 0) and behind: `twosided` decides which leaf stands in which.
 //
-// Material: row 0 = (number of leaves, flags kMaterial..., row of the first leaf, unused).
+// Material: row 0 = (number of leaves in front | behind << 8, flags kMaterial..., first leaf in front, first leaf
+//   behind). Both lists may be the same. Where the flags lack kMaterialSides the one list begins in row 1.
 // Leaf, from its first row on:
-//   row 0: type (kBsdf...) | sides << 8 | options << 16; number of weights; frame kind | frame texture << 8;
-//          rows to the next leaf
-//   row 1: frame parameters (kFrameNormalMap, kFrameBumpMap): scale bits, options, unused, unused
-//   then `number of weights` inputs (scalar; options bit 31 of the texture word: use 1 - value), then the bsdf's own
-//   inputs and constants, as its file in shaders/bsdf says.
-// Input (one row): (r, g, b as float bits; texture word: row of the texture in kBindTextures, or kNoTexture).
+//   row 0: type (kBsdf...) | mirrors << 8 | options << 16; number of weights | row of the first weight (counted
+//          from the leaf's first row) << 16; frame kind | frame options << 8; rows to the next leaf
+//   then the inputs and constants of its type, as its file in shaders/bsdf says; then, where the frame kind is not
+//   kFrameNone, one row (scale bits, unused, unused, texture row); then the weights, one scalar input each
+//   (kInputComplement in the texture word: use 1 - value). A weight is clamped to [0, 1].
+// Input (one row): (r, g, b as float bits; row of the texture in kBindTextures, or kNoTexture).
 //   A scalar input repeats its value in r g b.
 #ifndef TACHYLITE_SHARED_MATERIAL_H
 #define TACHYLITE_SHARED_MATERIAL_H
@@ -34,11 +36,10 @@ TACHYLITE_CONST uint kBsdfPrincipledThin = 11u;
 TACHYLITE_CONST uint kBsdfBlinnPhong = 12u;
 TACHYLITE_CONST uint kBsdfMicrofacet = 13u;
 
-// Sides a leaf serves: light seen from the front (cos_wo > 0), the back, or both by mirroring wo and wi to the front
-// (kSideMirror: what `twosided` does with its child).
-TACHYLITE_CONST uint kSideFront = 1u;
-TACHYLITE_CONST uint kSideBack = 2u;
-TACHYLITE_CONST uint kSideMirror = 4u;   // z of both directions is negated when wo is behind
+// Mirrors of a leaf: wo and wi are mirrored to the front (z negated where wo is behind) before or after the normal
+// or bump map turns the frame.
+TACHYLITE_CONST uint kMirrorOuter = 1u;
+TACHYLITE_CONST uint kMirrorInner = 2u;
 
 // Options of a leaf (which of them matter depends on the type).
 TACHYLITE_CONST uint kOptionGgx = 1u;          // else Beckmann
@@ -54,9 +55,12 @@ TACHYLITE_CONST uint kFrameShadowing = 2u;
 
 TACHYLITE_CONST uint kNoTexture = 0x7fffffffu;
 TACHYLITE_CONST uint kInputComplement = 0x80000000u;  // on a weight: 1 - value
+// Set of the inputs that are textures in some material of a class (kFeatureTexturedInputs): bit i is input i of the
+// leaves, in the order of their rows.
+TACHYLITE_CONST uint kTexturedWeights = 1u << 31u;
 
 // Flags of a material, also of the class a kernel is compiled for.
-TACHYLITE_CONST uint kMaterialHasWeights = 1u;   // some leaf has a weight other than 1
+TACHYLITE_CONST uint kMaterialHasWeights = 1u;   // some leaf has weights
 TACHYLITE_CONST uint kMaterialHasFrames = 2u;    // normal or bump maps
 TACHYLITE_CONST uint kMaterialTextured = 4u;     // some input is a texture: uv is needed
 TACHYLITE_CONST uint kMaterialTangent = 8u;      // the tangent matters: anisotropy, normal or bump maps
@@ -64,7 +68,10 @@ TACHYLITE_CONST uint kMaterialSmooth = 16u;      // some leaf has a non-delta lo
 TACHYLITE_CONST uint kMaterialDelta = 32u;       // some leaf has a delta lobe
 TACHYLITE_CONST uint kMaterialBeckmann = 64u;
 TACHYLITE_CONST uint kMaterialGgx = 128u;
-TACHYLITE_CONST uint kMaterialTwoSided = 256u;   // some leaf mirrors or serves the back
+TACHYLITE_CONST uint kMaterialTwoSided = 256u;   // every leaf has kMirrorOuter
+TACHYLITE_CONST uint kMaterialSides = 512u;      // lists of front and back differ, or only some leaves mirror
+TACHYLITE_CONST uint kMaterialNull = 1024u;      // a null part: shadow rays may pass
+TACHYLITE_CONST uint kMaterialMaxLeaves = 8u;    // in one list
 
 TACHYLITE_SHARED_END
 #endif

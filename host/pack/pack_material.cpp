@@ -1,0 +1,271 @@
+#include "pack/pack_material.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "base/check.h"
+#include "base/error.h"
+#include "pack/pack_leaf.h"
+#include "shared/geometry.h"
+#include "shared/material.h"
+
+namespace tachylite {
+namespace {
+
+struct Weight {
+  ScalarInput input;
+  bool complement = false;
+};
+struct Frame {
+  uint32_t kind = gpu::kFrameNone, options = 0;
+  TextureIndex texture = kNone;
+  double scale = 1;
+};
+/// A leaf with all that the adapters around it said.
+struct FlatLeaf {
+  PackedLeaf leaf;
+  std::vector<Weight> weights;
+  uint32_t mirrors = 0;
+  Frame frame;
+};
+enum Side { kFront = 1, kBack = 2 };
+/// What the adapters on the way down from the root say.
+struct Context {
+  std::vector<Weight> weights;
+  uint32_t mirrors = 0;
+  Frame frame;
+  int sides = kFront | kBack;
+  bool inside_twosided = false;
+};
+struct FlatMaterial {
+  std::array<std::vector<std::shared_ptr<const FlatLeaf>>, 2> lists;  // in front, behind
+  bool has_null = false;
+};
+
+class Flattener {
+ public:
+  Flattener(const Scene& scene, std::span<const uint32_t> row_of_texture)
+      : scene_(scene), row_of_texture_(row_of_texture) {}
+
+  FlatMaterial flatten(BsdfIndex root) {
+    material_ = {};
+    visit(root, {});
+    for (const auto& list : material_.lists)
+      if (list.size() > gpu::kMaterialMaxLeaves)
+        throw InputError(scene_.bsdfs[static_cast<size_t>(root)].where,
+                         fmt::format("a material blends {} bsdfs, expected at most {}", list.size(),
+                                     gpu::kMaterialMaxLeaves));
+    return std::move(material_);
+  }
+
+ private:
+  void visit(BsdfIndex index, const Context& context) {
+    CHECK(index >= 0 && static_cast<size_t>(index) < scene_.bsdfs.size());
+    const Bsdf& bsdf = scene_.bsdfs[static_cast<size_t>(index)];
+    std::visit([&](const auto& kind) { visit_kind(bsdf, kind, context); }, bsdf.kind);
+  }
+
+  template <class Kind>
+  void visit_kind(const Bsdf& bsdf, const Kind&, const Context& context) {
+    std::optional<PackedLeaf> leaf = pack_leaf(bsdf, row_of_texture_);
+    if (!leaf) return add_null(bsdf, context);
+    if ((leaf->flags & gpu::kMaterialNull) != 0) add_null(bsdf, context);
+    add(std::move(*leaf), context);
+  }
+  void visit_kind(const Bsdf& bsdf, const NullBsdf&, const Context& context) { add_null(bsdf, context); }
+  void visit_kind(const Bsdf& bsdf, const PaperBsdf& paper, const Context& context) {
+    std::optional<Context> transparent = weighted(context, {paper.transparency, false});
+    std::optional<Context> opaque = weighted(context, {paper.transparency, true});
+    if (transparent) add_null(bsdf, *transparent);
+    if (!opaque) return;
+    Bsdf diffuse = bsdf;
+    diffuse.kind = DiffuseBsdf{paper.reflectance};
+    mirror(*opaque);
+    add(*pack_leaf(diffuse, row_of_texture_), *opaque);
+  }
+  void visit_kind(const Bsdf& bsdf, const MaskBsdf& mask, const Context& context) {
+    if (std::optional<Context> transparent = weighted(context, {mask.opacity, true})) add_null(bsdf, *transparent);
+    if (std::optional<Context> opaque = weighted(context, {mask.opacity, false})) visit(mask.child, *opaque);
+  }
+  void visit_kind(const Bsdf&, const BlendBsdf& blend, const Context& context) {
+    if (std::optional<Context> first = weighted(context, {blend.weight, true})) visit(blend.first, *first);
+    if (std::optional<Context> second = weighted(context, {blend.weight, false})) visit(blend.second, *second);
+  }
+  void visit_kind(const Bsdf&, const TwoSidedBsdf& two_sided, const Context& context) {
+    Context front = context;
+    front.inside_twosided = true;
+    if (two_sided.front == two_sided.back || two_sided.back == kNone) {
+      mirror(front);
+      return visit(two_sided.front, front);
+    }
+    // Two children: the viewer's side of the surface picks one. Inside another `twosided` it is always the front.
+    Context back = front;
+    front.sides &= kFront;
+    back.sides &= kBack;
+    if ((context.mirrors & gpu::kMirrorOuter) != 0) {
+      front.sides = context.sides;
+      back.sides = 0;
+    }
+    mirror(back);
+    if (front.sides != 0) visit(two_sided.front, front);
+    if (back.sides != 0) visit(two_sided.back, back);
+  }
+  void visit_kind(const Bsdf& bsdf, const NormalMapBsdf& map, const Context& context) {
+    visit_framed(bsdf, map.child, {gpu::kFrameNormalMap, frame_options(map), map.normalmap, 1.0}, context);
+  }
+  void visit_kind(const Bsdf& bsdf, const BumpMapBsdf& map, const Context& context) {
+    visit_framed(bsdf, map.child, {gpu::kFrameBumpMap, frame_options(map), map.height, map.scale}, context);
+  }
+
+  template <class Map>
+  static uint32_t frame_options(const Map& map) {
+    return (map.flip_invalid_normals ? gpu::kFrameFlipInvalid : 0u) |
+           (map.use_shadowing_function ? gpu::kFrameShadowing : 0u);
+  }
+  void visit_framed(const Bsdf& bsdf, BsdfIndex child, const Frame& frame, Context context) {
+    if (context.frame.kind != gpu::kFrameNone)
+      throw InputError(bsdf.where, "a normal or bump map inside another is not supported");
+    context.frame = frame;
+    visit(child, context);
+  }
+
+  /// Context for a child with one more weight; none where that weight is the constant 0.
+  static std::optional<Context> weighted(Context context, const Weight& weight) {
+    if (weight.input.texture == kNone) {
+      const double value = std::clamp(weight.input.value, 0.0, 1.0);
+      if (value == (weight.complement ? 1.0 : 0.0)) return std::nullopt;
+      if (value == (weight.complement ? 0.0 : 1.0)) return context;
+    }
+    context.weights.push_back(weight);
+    return context;
+  }
+  static void mirror(Context& context) {
+    context.mirrors |= context.frame.kind == gpu::kFrameNone ? gpu::kMirrorOuter : gpu::kMirrorInner;
+  }
+  void add_null(const Bsdf& bsdf, const Context& context) {
+    if (context.inside_twosided)
+      throw InputError(bsdf.where, "twosided: only bsdfs without transmission can be nested");
+    material_.has_null = true;
+  }
+  void add(PackedLeaf leaf, const Context& context) {
+    auto flat = std::make_shared<const FlatLeaf>(
+        FlatLeaf{std::move(leaf), context.weights, context.mirrors, context.frame});
+    if (context.sides & kFront) material_.lists[0].push_back(flat);
+    if (context.sides & kBack) material_.lists[1].push_back(flat);
+  }
+
+  const Scene& scene_;
+  std::span<const uint32_t> row_of_texture_;
+  FlatMaterial material_;
+};
+
+/// What kernels must be compiled for to shade it; no value: it absorbs everything.
+std::optional<MaterialClass> class_of(const FlatMaterial& material) {
+  MaterialClass result;
+  bool scatters = material.has_null, any_leaf = false;
+  uint32_t outer = 0, not_outer = 0;
+  if (material.has_null) {
+    result.bsdfs |= 1u << gpu::kBsdfNull;
+    result.flags |= gpu::kMaterialNull;
+  }
+  for (const auto& list : material.lists) {
+    result.max_leaves = std::max(result.max_leaves, static_cast<uint32_t>(list.size()));
+    for (const auto& flat : list) {
+      any_leaf = true;
+      scatters |= flat->leaf.scatters;
+      result.bsdfs |= 1u << flat->leaf.type;
+      result.flags |= flat->leaf.flags;
+      result.textured |= flat->leaf.textured;
+      if (!flat->weights.empty()) result.flags |= gpu::kMaterialHasWeights;
+      for (const Weight& weight : flat->weights)
+        if (weight.input.texture != kNone) {
+          result.textured |= gpu::kTexturedWeights;
+          result.flags |= gpu::kMaterialTextured;
+        }
+      if (flat->frame.kind != gpu::kFrameNone)
+        result.flags |= gpu::kMaterialHasFrames | gpu::kMaterialTextured | gpu::kMaterialTangent;
+      (flat->mirrors & gpu::kMirrorOuter ? outer : not_outer) += 1;
+    }
+  }
+  if (!scatters) return std::nullopt;
+  if (material.lists[0] != material.lists[1] || (outer != 0 && not_outer != 0))
+    result.flags |= gpu::kMaterialSides;
+  else if (any_leaf && not_outer == 0)
+    result.flags |= gpu::kMaterialTwoSided;
+  return result;
+}
+
+class MaterialWriter {
+ public:
+  MaterialWriter(std::span<const uint32_t> row_of_texture, std::vector<glm::uvec4>& rows)
+      : row_of_texture_(row_of_texture), rows_(rows) {}
+
+  /// Returns the material's row.
+  uint32_t write(const FlatMaterial& material, uint32_t flags) {
+    const size_t head = rows_.size();
+    rows_.emplace_back();
+    const uint32_t front = write_list(material.lists[0]);
+    const uint32_t behind = material.lists[0] == material.lists[1] ? front : write_list(material.lists[1]);
+    rows_[head] = {static_cast<uint32_t>(material.lists[0].size() | material.lists[1].size() << 8), flags, front,
+                   behind};
+    return static_cast<uint32_t>(head);
+  }
+
+ private:
+  uint32_t texture_row(TextureIndex texture) const {
+    return texture == kNone ? gpu::kNoTexture : row_of_texture_[static_cast<size_t>(texture)];
+  }
+  uint32_t write_list(const std::vector<std::shared_ptr<const FlatLeaf>>& list) {
+    const auto first = static_cast<uint32_t>(rows_.size());
+    for (const auto& leaf : list) write_leaf(*leaf);
+    return first;
+  }
+  void write_leaf(const FlatLeaf& flat) {
+    const size_t head = rows_.size();
+    rows_.emplace_back();
+    rows_.insert(rows_.end(), flat.leaf.rows.begin(), flat.leaf.rows.end());
+    if (flat.frame.kind != gpu::kFrameNone) {
+      rows_.push_back(float_row(flat.frame.scale));
+      rows_.back().w = texture_row(flat.frame.texture);
+    }
+    const auto first_weight = static_cast<uint32_t>(rows_.size() - head);
+    for (const Weight& weight : flat.weights)
+      rows_.push_back(input_row(dvec3(weight.input.value), texture_row(weight.input.texture) |
+                                                               (weight.complement ? gpu::kInputComplement : 0u)));
+    rows_[head] = {flat.leaf.type | flat.mirrors << 8 | flat.leaf.options << 16,
+                   static_cast<uint32_t>(flat.weights.size()) | first_weight << 16,
+                   flat.frame.kind | flat.frame.options << 8, static_cast<uint32_t>(rows_.size() - head)};
+  }
+
+  std::span<const uint32_t> row_of_texture_;
+  std::vector<glm::uvec4>& rows_;
+};
+
+}  // namespace
+
+PackedMaterials pack_materials(const Scene& scene, std::span<const uint32_t> row_of_texture) {
+  CHECK_EQ(row_of_texture.size(), scene.textures.size());
+  PackedMaterials packed;
+  packed.row_of_bsdf.assign(scene.bsdfs.size(), gpu::kNoIndex);
+  packed.class_of_bsdf.assign(scene.bsdfs.size(), gpu::kClassNone);
+  Flattener flattener(scene, row_of_texture);
+  MaterialWriter writer(row_of_texture, packed.rows);
+  for (const Shape& shape : scene.shapes) {
+    const auto bsdf = static_cast<size_t>(shape.bsdf);
+    CHECK_LT(bsdf, scene.bsdfs.size());
+    if (packed.row_of_bsdf[bsdf] != gpu::kNoIndex) continue;
+    const FlatMaterial material = flattener.flatten(shape.bsdf);
+    const std::optional<MaterialClass> material_class = class_of(material);
+    packed.row_of_bsdf[bsdf] = writer.write(material, material_class ? material_class->flags : 0u);
+    if (!material_class) continue;
+    const auto found = std::find(packed.classes.begin(), packed.classes.end(), *material_class);
+    packed.class_of_bsdf[bsdf] = static_cast<uint32_t>(found - packed.classes.begin());
+    if (found == packed.classes.end()) packed.classes.push_back(*material_class);
+    if (packed.classes.size() > gpu::kClassNone)
+      throw InputError(scene.bsdfs[bsdf].where, fmt::format("more than {} kinds of material", gpu::kClassNone));
+  }
+  return packed;
+}
+
+}  // namespace tachylite
