@@ -5,20 +5,20 @@
 
 namespace tachylite {
 
-Film::Film(int width, int height)
+FilmBuffer::FilmBuffer(int width, int height)
     : width_(width),
       height_(height),
       sum_(static_cast<size_t>(width) * static_cast<size_t>(height), glm::dvec3(0)),
       square_(sum_.size(), glm::dvec3(0)) {}
 
-glm::dvec3 Film::variance_of_mean(size_t index) const {
+glm::dvec3 FilmBuffer::variance_of_mean(size_t index) const {
   if (!has_variance()) return glm::dvec3(0);
   const double n = static_cast<double>(samples_);
   const glm::dvec3 scatter = square_[index] - sum_[index] * sum_[index] / n;
   return glm::max(scatter, glm::dvec3(0)) / (static_cast<double>(blocks_ - 1) * n);
 }
 
-double Film::relative_error() const {
+double FilmBuffer::relative_error() const {
   if (!has_variance()) return 0;
   const glm::dvec3 luminance(0.212671, 0.715160, 0.072169);
   double mean_luminance = 0, variance = 0;
@@ -30,7 +30,7 @@ double Film::relative_error() const {
   return mean_luminance > 0 ? std::sqrt(variance / pixels) / (mean_luminance / pixels) : 0;
 }
 
-Image Film::to_image() const {
+Image FilmBuffer::to_image() const {
   Image image;
   image.width = width_;
   image.height = height_;

@@ -12,9 +12,9 @@ namespace tachylite {
 
 /// Sums of samples in double, pixel by pixel, in blocks of a few samples: what a render has so far.
 /// A block is a run of consecutive samples of a pixel; blocks are added in order of sample index.
-class Film {
+class FilmBuffer {
  public:
-  Film(int width, int height);
+  FilmBuffer(int width, int height);
 
   int width() const { return width_; }
   int height() const { return height_; }

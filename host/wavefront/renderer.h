@@ -20,7 +20,7 @@ struct RenderProgress {
   uint64_t samples = 0, target_samples = 0;  // per pixel
   double fraction = 0;                       // of all paths, finer than samples
   double seconds = 0, mpaths_per_s = 0;
-  double relative_error = 0;                 // Film::relative_error(), 0 while unknown
+  double relative_error = 0;                 // FilmBuffer::relative_error(), 0 while unknown
 };
 
 struct RenderOptions {
@@ -30,7 +30,7 @@ struct RenderOptions {
   SamplerKind sampler = SamplerKind::kSobol;
   uint32_t max_paths = 262144;  // in flight
   double time_limit = 0;        // seconds of rendering; 0: none. At least one block is rendered.
-  double error_limit = 0;       // Film::relative_error() to reach; 0: none
+  double error_limit = 0;       // FilmBuffer::relative_error() to reach; 0: none
   bool timing = false;          // timestamp queries around each kernel
   /// Called now and then; returning false stops after the blocks that are finished.
   std::function<bool(const RenderProgress&)> progress;
@@ -62,7 +62,7 @@ class Renderer {
   ~Renderer();
 
   /// Renders until samples, time, error or the caller say stop; the image does not depend on max_paths.
-  Film render();
+  FilmBuffer render();
 
   const RenderStatistics& statistics() const;
   /// Stages that run for this scene, and those that it does not need.
