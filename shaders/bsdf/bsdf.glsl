@@ -21,6 +21,8 @@ struct SurfaceBsdf {
   Interaction it;
 };
 
+const float kLargestUniform = 0.99999994;  // below 1
+
 // Weights of leaves sum to 1 but for rounding where nothing is null.
 const float kNegligibleWeight = 2.5e-7;
 float null_weight_of(float sum) { return 1.0 - sum < kNegligibleWeight ? 0.0 : 1.0 - sum; }
@@ -117,7 +119,7 @@ BsdfSample sample_bsdf(SurfaceBsdf b, vec2 u, float u_lobe) {
       uint next = load_material_row(row).w;
       row += i + 1u < b.count ? next : 0u;
     }
-    float u_inner = clamp((target - below) / weight, 0.0, kOneMinusEpsilon);
+    float u_inner = clamp((target - below) / weight, 0.0, kLargestUniform);
     s = sample_leaf(load_leaf(chosen, load_material_row(chosen), b.it, b.wo), u, u_inner);
     if ((s.flags & kLobeDelta) == 0u) {
       BsdfEval mixture = eval_bsdf(b, s.wi);
