@@ -15,6 +15,7 @@ struct Image {
   std::vector<std::string> names;            // "R", "G", "B", "variance.R", "albedo.R", "depth.Z" ...
   std::vector<std::vector<float>> channels;  // one of width*height for each name
   std::map<std::string, std::string> metadata;
+  bool half = false;  // set by read_exr: all channels were 16-bit floats in the file
 
   /// The channel of that name, or null.
   const std::vector<float>* find(const std::string& name) const;

@@ -1,0 +1,133 @@
+#include "image/ldr.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <memory>
+
+#include "base/atomic_file.h"
+#include "base/check.h"
+#include "base/error.h"
+#include "base/read_file.h"
+#include "image/stb.h"
+
+namespace tachylite {
+namespace {
+
+/// stb_image fills what a file lacks with zeros. This source notes that it was asked for more than there is.
+struct Source {
+  std::string_view bytes;
+  size_t position = 0;
+  bool cut_short = false;
+
+  static int read(void* user, char* data, int size) {
+    auto& self = *static_cast<Source*>(user);
+    const size_t n = std::min(static_cast<size_t>(size), self.bytes.size() - self.position);
+    if (n == 0) self.cut_short = true;
+    if (n > 0) std::memcpy(data, self.bytes.data() + self.position, n);
+    self.position += n;
+    return static_cast<int>(n);
+  }
+  static void skip(void* user, int n) {
+    auto& self = *static_cast<Source*>(user);
+    const int64_t target = static_cast<int64_t>(self.position) + n;
+    if (target > static_cast<int64_t>(self.bytes.size())) self.cut_short = true;
+    self.position =
+        static_cast<size_t>(std::clamp<int64_t>(target, 0, static_cast<int64_t>(self.bytes.size())));
+  }
+  static int eof(void* user) {
+    const auto& self = *static_cast<const Source*>(user);
+    return self.position >= self.bytes.size();
+  }
+  static constexpr stbi_io_callbacks kCallbacks{&read, &skip, &eof};
+};
+
+/// A JPEG whose entropy-coded data breaks off decodes to grey without complaint; the end marker tells.
+bool jpeg_is_cut_short(std::string_view bytes) {
+  if (!bytes.starts_with("\xff\xd8")) return false;
+  for (size_t i = bytes.size() - 1; i > 0; --i) {
+    if (bytes[i - 1] != '\xff') continue;
+    if (bytes[i] == '\xd9') return false;  // end of image
+    if (bytes[i] == '\xda') return true;   // start of scan, with no end after it
+  }
+  return true;
+}
+
+template <typename T>
+std::vector<T> take(T* decoded, const DecodedImage& image) {
+  const std::unique_ptr<T, decltype(&stbi_image_free)> owner(decoded, &stbi_image_free);
+  if (!decoded) return {};
+  const size_t count = static_cast<size_t>(image.width) * static_cast<size_t>(image.height) *
+                       static_cast<size_t>(image.channels);
+  return std::vector<T>(decoded, decoded + count);
+}
+
+}  // namespace
+
+float linear_to_srgb(float linear) {
+  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
+
+float srgb_to_linear(float encoded) {
+  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+void write_png(const std::filesystem::path& file, const Image& image) {
+  const std::vector<float>* rgb[3] = {image.find("R"), image.find("G"), image.find("B")};
+  CHECK(rgb[0] && rgb[1] && rgb[2]);
+  const size_t count = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
+  std::vector<uint8_t> bytes(3 * count);
+  for (size_t i = 0; i < count; ++i)
+    for (size_t c = 0; c < 3; ++c) {
+      const float value = (*rgb[c])[i];
+      const float clamped = value > 0 ? std::min(value, 1.0f) : 0.0f;  // NaN becomes 0
+      bytes[3 * i + c] = static_cast<uint8_t>(std::lround(255 * linear_to_srgb(clamped)));
+    }
+  write_atomically(file, [&](const std::filesystem::path& beside) {
+    std::ofstream stream(beside, std::ios::binary);
+    const auto append = [](void* context, void* data, int size) {
+      static_cast<std::ofstream*>(context)->write(static_cast<const char*>(data), size);
+    };
+    const int done = stbi_write_png_to_func(append, &stream, image.width, image.height, 3, bytes.data(), 0);
+    stream.close();
+    if (!done || !stream) throw RenderError(fmt::format("cannot write {}", file.string()));
+  });
+}
+
+DecodedImage read_ldr(const std::filesystem::path& file, size_t max_pixels) {
+  const FileLocation where = locate_file(file);
+  const FileBytes content = read_file(file, uint64_t{1} << 30);
+  const std::string_view bytes = content.view();
+
+  // Look at the header before anything is allocated.
+  DecodedImage image;
+  Source header{bytes};
+  if (!stbi_info_from_callbacks(&Source::kCallbacks, &header, &image.width, &image.height, &image.channels))
+    throw InputError(
+        where, fmt::format("not a readable PNG, JPEG, BMP, TGA or HDR image: {}", stbi_failure_reason()));
+  if (image.width < 1 || image.height < 1) throw InputError(where, "the image is empty");
+  if (static_cast<size_t>(image.width) > max_pixels / static_cast<size_t>(image.height))
+    throw InputError(where, fmt::format("the image has {} x {} pixels; at most {} are read", image.width,
+                                        image.height, max_pixels));
+
+  Source hdr_source{bytes}, wide_source{bytes}, source{bytes};
+  const bool hdr = stbi_is_hdr_from_callbacks(&Source::kCallbacks, &hdr_source);
+  const bool wide = !hdr && stbi_is_16_bit_from_callbacks(&Source::kCallbacks, &wide_source);
+  const auto decode = [&](auto* load) {
+    return take(load(&Source::kCallbacks, &source, &image.width, &image.height, &image.channels, 0), image);
+  };
+  if (hdr) {
+    image.floats = decode(stbi_loadf_from_callbacks);
+  } else if (wide) {
+    image.words = decode(stbi_load_16_from_callbacks);
+  } else {
+    image.bytes = decode(stbi_load_from_callbacks);
+  }
+  if (image.bytes.empty() && image.words.empty() && image.floats.empty())
+    throw InputError(where, fmt::format("the image cannot be decoded: {}", stbi_failure_reason()));
+  if (source.cut_short || jpeg_is_cut_short(bytes)) throw InputError(where, "the image file is cut short");
+  return image;
+}
+
+}  // namespace tachylite

@@ -1,0 +1,105 @@
+#include "scene/parse_color.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/read_file.h"
+#include "scene/parse_value.h"
+
+namespace tachylite {
+namespace {
+
+[[noreturn]] void fail(const XmlNode& node, const std::string& owner, const std::string& expected) {
+  throw InputError(node.where, fmt::format("{} of {} is \"{}\", expected {}", node.name(), owner,
+                                           node.attribute("value"), expected));
+}
+
+/// One or three numbers.
+dvec3 parse_triple(const XmlNode& node, const std::string& owner) {
+  const auto values = parse_reals(node.attribute("value"));
+  if (!values || (values->size() != 1 && values->size() != 3)) fail(node, owner, "one or three numbers");
+  return values->size() == 1 ? dvec3((*values)[0]) : dvec3((*values)[0], (*values)[1], (*values)[2]);
+}
+
+/// "#rrggbb" or three numbers, sRGB encoded (Mitsuba 0.6).
+dvec3 parse_srgb(const XmlNode& node, const std::string& owner) {
+  dvec3 encoded;
+  if (const std::string& text = node.attribute("value"); text.starts_with('#')) {
+    uint32_t hex = 0;
+    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), hex, 16);
+    if (text.size() != 7 || error != std::errc() || end != text.data() + 7) fail(node, owner, "#rrggbb");
+    encoded = dvec3(hex >> 16, (hex >> 8) & 255, hex & 255) / 255.0;
+  } else {
+    encoded = parse_triple(node, owner);
+  }
+  dvec3 linear;
+  for (int c = 0; c < 3; ++c)
+    linear[c] = encoded[c] <= 0.04045 ? encoded[c] / 12.92 : std::pow((encoded[c] + 0.055) / 1.055, 2.4);
+  return linear;
+}
+
+dvec3 parse_samples(const XmlNode& node, const std::string& owner, const std::vector<std::string_view>& pairs,
+                    ColorUse use) {
+  std::vector<double> wavelengths, values;
+  for (const std::string_view pair : pairs) {
+    const size_t colon = pair.find(':');
+    const auto wavelength = parse_real(pair.substr(0, colon));
+    const auto value = colon == pair.npos ? std::nullopt : parse_real(pair.substr(colon + 1));
+    if (!wavelength || !value) fail(node, owner, "one number or pairs of wavelength:value");
+    if (!wavelengths.empty() && *wavelength <= wavelengths.back()) fail(node, owner, "wavelengths that rise");
+    if (*value < 0) fail(node, owner, "no negative values");
+    wavelengths.push_back(*wavelength);
+    values.push_back(*value);
+  }
+  if (wavelengths.size() < 2) fail(node, owner, "at least two pairs of wavelength:value");
+  return spectrum_to_rgb(wavelengths, values, use);
+}
+
+dvec3 parse_spectrum(const XmlNode& node, const std::string& owner, ColorUse use) {
+  if (node.has("type"))
+    throw InputError(node.where, fmt::format("the spectrum plugin {} is not supported", node.type()));
+  if (node.has("filename"))
+    throw InputError(node.where,
+                     fmt::format("{} of {}: spectra from files are not supported", node.name(), owner));
+  const auto parts = split_list(node.attribute("value"));
+  if (parts.empty()) fail(node, owner, "one number or pairs of wavelength:value");
+  if (parts[0].find(':') != std::string_view::npos) return parse_samples(node, owner, parts, use);
+  if (node.legacy && parts.size() == 3) return parse_triple(node, owner);  // 0.6 as compiled for RGB
+  if (parts.size() != 1) fail(node, owner, "one number or pairs of wavelength:value");
+  const dvec3 constant = parse_triple(node, owner);
+  return use == ColorUse::kEmission && !node.legacy ? xyz_to_rgb(constant) : constant;
+}
+
+}  // namespace
+
+double luminance(const dvec3& rgb) {
+  return glm::dot(rgb, dvec3(.212671, .715160, .072169));
+}
+
+dvec3 parse_color(const XmlNode& node, const std::string& owner, ColorUse use) {
+  dvec3 color;
+  if (node.tag == "float" || node.tag == "integer") {
+    const auto value = parse_real(node.attribute("value"));
+    if (!value) fail(node, owner, "a number");
+    color = dvec3(*value);
+  } else if (node.tag == "rgb") {
+    color = parse_triple(node, owner);
+  } else if (node.tag == "srgb") {
+    color = parse_srgb(node, owner);
+  } else if (node.tag == "spectrum") {
+    color = parse_spectrum(node, owner, use);
+  } else {
+    throw InputError(node.where, fmt::format("{} of {} is a <{}>, expected a colour or a texture",
+                                             node.name(), owner, node.tag));
+  }
+  if (!node.children.empty())
+    throw InputError(node.children.front().where, fmt::format("<{}> cannot hold other elements", node.tag));
+  for (int c = 0; c < 3; ++c) {
+    if (color[c] < 0) fail(node, owner, "no negative values");
+    if (use == ColorUse::kReflectance && color[c] > 1) fail(node, owner, "values within [0, 1]");
+  }
+  return color;
+}
+
+}  // namespace tachylite

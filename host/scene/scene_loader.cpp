@@ -1,0 +1,169 @@
+#include "scene/scene_loader.h"
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/parallel.h"
+#include "scene/load_objects.h"
+#include "scene/plugin.h"
+
+namespace tachylite {
+
+SceneLoader::SceneLoader(XmlTree tree, const LoadOptions& options)
+    : tree_(std::move(tree)), permissive_(options.permissive) {
+  scene.path = *tree_.root.where.file;
+  folder_ = std::filesystem::path(scene.path).parent_path();
+  note_ids(tree_.root);
+}
+
+void SceneLoader::note_ids(const XmlNode& node) {
+  for (const XmlNode& child : node.children) {
+    if (child.tag != "ref" && child.has("id")) {
+      if (tree_.aliases.contains(child.id()) || !ids_.emplace(child.id(), &child).second)
+        throw InputError(child.where, fmt::format("id \"{}\" is given twice", child.id()));
+    }
+    note_ids(child);
+  }
+}
+
+Scene SceneLoader::load() {
+  load_used();
+  load_unused();
+  if (scene.sensors.empty()) throw InputError(tree_.root.where, "the scene has no sensor");
+  if (scene.shapes.empty() && scene.emitters.empty())
+    throw InputError(tree_.root.where, "the scene is empty: it has neither shapes nor emitters");
+  return std::move(scene);
+}
+
+void SceneLoader::load_used() {
+  scene.integrator.where = tree_.root.where;
+  const XmlNode* integrator = nullptr;
+  for (const XmlNode& child : tree_.root.children) {
+    if (child.tag == "shape") load_shape(*this, child);
+    if (child.tag == "emitter") load_emitter(*this, child);
+    if (child.tag == "sensor") load_sensor(*this, child);
+    if (child.tag != "integrator") continue;
+    if (integrator) throw InputError(child.where, "the scene has several integrators, expected one");
+    integrator = &child;
+    load_integrator(*this, child);
+  }
+  run_jobs();
+}
+
+/// Objects that nothing refers to must be right, too, but the scene does not hold them.
+void SceneLoader::load_unused() {
+  Scene used = std::move(scene);
+  scene = {};
+  for (const XmlNode& child : tree_.root.children) {
+    if (child.used) continue;
+    if (child.tag == "bsdf") bsdf(child);
+    if (child.tag == "texture") texture(child);
+    if (child.tag == "medium") medium(child);
+    const bool definition = child.tag == "film" || child.tag == "sampler" || child.tag == "rfilter" ||
+                            child.tag == "phase" || child.tag == "volume" || child.tag == "spectrum";
+    if (!child.used && !(definition && child.has("id")))
+      refuse(child.where, fmt::format("<{}> means nothing inside <scene>", child.tag));
+  }
+  run_jobs();
+  scene = std::move(used);
+}
+
+void SceneLoader::refuse(const FileLocation& where, const std::string& message) const {
+  if (!permissive_) throw InputError(where, message);
+  log_warning(fmt::format("{}: {}; ignored", where.str(), message));
+}
+
+std::filesystem::path SceneLoader::find_file(const XmlNode& node, const std::string& name) const {
+  std::vector<std::filesystem::path> folders = tree_.search_folders;
+  folders.push_back(folder_);
+  folders.push_back(std::filesystem::path(*node.where.file).parent_path());
+  if (std::filesystem::path(name).is_absolute()) folders = {""};
+  std::error_code failed;
+  for (const auto& folder : folders)
+    if (std::filesystem::is_regular_file(folder / name, failed)) return folder / name;
+  throw InputError(node.where, fmt::format("the file \"{}\" does not exist", name));
+}
+
+const XmlNode& SceneLoader::resolve(const XmlNode& node) const {
+  if (node.tag != "ref") return node;
+  std::string id = node.id();
+  for (size_t hops = 0; tree_.aliases.contains(id); ++hops) {
+    if (hops > tree_.aliases.size())
+      throw InputError(node.where, fmt::format("alias \"{}\" refers to itself", id));
+    id = tree_.aliases.at(id);
+  }
+  const auto found = ids_.find(id);
+  if (found == ids_.end()) throw InputError(node.where, fmt::format("nothing has the id \"{}\"", id));
+  return *found->second;
+}
+
+int SceneLoader::once(const XmlNode& node, const std::function<int()>& load) {
+  if (const auto found = loaded_.find(&node); found != loaded_.end()) return found->second;
+  if (!loading_.insert(&node).second)
+    throw InputError(node.where,
+                     fmt::format("<{}> \"{}\" contains itself by reference", node.tag, node.id()));
+  const int index = load();
+  loading_.erase(&node);
+  loaded_.emplace(&node, index);
+  return index;
+}
+
+TextureIndex SceneLoader::texture(const XmlNode& node) {
+  const XmlNode& target = resolve(node);
+  return once(target, [&] {
+    const auto index = static_cast<TextureIndex>(scene.textures.size());
+    scene.textures.emplace_back();
+    Texture texture = load_texture(*this, target, index);
+    scene.textures[static_cast<size_t>(index)] = std::move(texture);
+    return index;
+  });
+}
+
+BsdfIndex SceneLoader::bsdf(const XmlNode& node) {
+  const XmlNode& target = resolve(node);
+  return once(target, [&] {
+    BsdfKind kind = load_bsdf(*this, target);  // may append children
+    scene.bsdfs.push_back({target.where, target.id(), target.type(), std::move(kind)});
+    return static_cast<BsdfIndex>(scene.bsdfs.size()) - 1;
+  });
+}
+
+BsdfIndex SceneLoader::default_bsdf(const std::string& name, const BsdfKind& kind) {
+  const auto [entry, added] = defaults_.emplace(name, static_cast<BsdfIndex>(scene.bsdfs.size()));
+  if (added) scene.bsdfs.push_back({tree_.root.where, "", name, kind});
+  return entry->second;
+}
+
+MediumIndex SceneLoader::medium(const XmlNode& node) {
+  const XmlNode& target = resolve(node);
+  return once(target, [&] {
+    scene.media.push_back(load_medium(*this, target));
+    return static_cast<MediumIndex>(scene.media.size()) - 1;
+  });
+}
+
+void SceneLoader::defer(std::function<void()> load, std::function<void()> finish) {
+  jobs_.push_back({std::move(load), std::move(finish), nullptr});
+}
+
+void SceneLoader::run_jobs() {
+  parallel_for(0, jobs_.size(), 1, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) try {
+        if (jobs_[i].load) jobs_[i].load();
+      } catch (...) {
+        jobs_[i].failure = std::current_exception();
+      }
+  });
+  // The complaint is that of the first file in the scene, whichever thread was faster.
+  for (const Job& job : jobs_)
+    if (job.failure) std::rethrow_exception(job.failure);
+  for (const Job& job : jobs_)
+    if (job.finish) job.finish();
+  jobs_.clear();
+  loaded_.clear();
+}
+
+Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) {
+  return SceneLoader(read_xml(file, options.parameters), options).load();
+}
+
+}  // namespace tachylite

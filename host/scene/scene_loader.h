@@ -1,0 +1,82 @@
+#pragma once
+
+// Internals of load_xml: what the readers of single kinds of objects share.
+
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "scene/load_xml.h"
+#include "scene/scene.h"
+#include "scene/xml_node.h"
+
+namespace tachylite {
+
+class SceneLoader {
+ public:
+  SceneLoader(XmlTree tree, const LoadOptions& options);
+  Scene load();
+
+  /// What we do not know: an error, or under --permissive a warning (then the caller goes on without it).
+  void refuse(const FileLocation& where, const std::string& message) const;
+
+  /// The file that a parameter of `node` names; throws when it does not exist.
+  std::filesystem::path find_file(const XmlNode& node, const std::string& name) const;
+
+  /// `node` itself, or what it refers to when it is a <ref>.
+  const XmlNode& resolve(const XmlNode& node) const;
+
+  /// Index of the object that `node` describes; read once however often it is referred to.
+  TextureIndex texture(const XmlNode& node);
+  BsdfIndex bsdf(const XmlNode& node);
+  MediumIndex medium(const XmlNode& node);
+  /// The bsdf of shapes that name none, made once under that name.
+  BsdfIndex default_bsdf(const std::string& name, const BsdfKind& kind);
+
+  /// Runs `load` after all XML has been read, in parallel with others; then all `finish` in the order of the
+  /// calls. `load` must touch only what it owns.
+  void defer(std::function<void()> load, std::function<void()> finish);
+  /// The job's result under `key`, made by `load` once; filled when `finish` functions run.
+  template <typename T>
+  std::shared_ptr<std::shared_ptr<const T>> deferred_file(const std::string& key,
+                                                          std::function<std::shared_ptr<const T>()> load) {
+    auto& slot = files_[key];
+    if (!slot) {
+      auto result = std::make_shared<std::shared_ptr<const T>>();
+      defer([result, load = std::move(load)] { *result = load(); }, [] {});
+      slot = result;
+    }
+    return std::static_pointer_cast<std::shared_ptr<const T>>(slot);
+  }
+
+  Scene scene;
+
+ private:
+  struct Job {
+    std::function<void()> load, finish;
+    std::exception_ptr failure;
+  };
+
+  void note_ids(const XmlNode& node);
+  void run_jobs();
+  void load_used();
+  void load_unused();
+  /// Memoises; finds circles of references.
+  int once(const XmlNode& node, const std::function<int()>& load);
+
+  XmlTree tree_;
+  bool permissive_;
+  std::filesystem::path folder_;
+  std::map<std::string, const XmlNode*> ids_;
+  std::map<const XmlNode*, int> loaded_;
+  std::set<const XmlNode*> loading_;
+  std::map<std::string, BsdfIndex> defaults_;
+  std::map<std::string, std::shared_ptr<void>> files_;
+  std::vector<Job> jobs_;
+};
+
+}  // namespace tachylite
