@@ -1,7 +1,7 @@
 // The tests of `compare`: level and power on images of synthetic noise. Level: over kTrials pairs with equal
-// expectations the number of rejections must not exceed the 0.9999 quantile of Binomial(kTrials, level). Power:
-// a bias of the size that the test itself calls detectable (with probability 0.95) is found in at least 85 % of 100
-// trials; under 0.95 fewer than that happen with a probability below 1e-3.
+// expectations the number of rejections must not exceed the 0.9999 quantile of Binomial(kTrials, level).
+// Power: a bias of the size that the test itself calls detectable (with probability 0.95) is found in at
+// least 85 % of 100 trials; under 0.95 fewer than that happen with a probability below 1e-3.
 #include "image/compare.h"
 
 #include <cmath>
@@ -9,8 +9,8 @@
 #include <limits>
 #include <random>
 
-#include <boost/math/distributions/binomial.hpp>
 #include <gtest/gtest.h>
+#include <boost/math/distributions/binomial.hpp>
 
 #include "base/error.h"
 
@@ -21,10 +21,10 @@ constexpr int kSize = 48;
 constexpr int kTrials = 300;
 
 struct Noise {
-  double deviation = 0.2;     // of the mean of one block of samples, relative to the pixel
-  double shape = 1e9;         // of a gamma distribution: 1e9 is as good as normal, 0.05 has a heavy tail
+  double deviation = 0.2;  // of the mean of one block of samples, relative to the pixel
+  double shape = 1e9;      // of a gamma distribution: 1e9 is as good as normal, 0.05 has a heavy tail
   int blocks = 4;
-  double overestimate = 1;    // of the variance layer
+  double overestimate = 1;     // of the variance layer
   double rare = 0, spike = 0;  // a block is lit with probability `rare` by spike / rare, and its mean keeps
 };
 
@@ -46,9 +46,11 @@ Image noisy_image(std::mt19937& random, const Noise& noise, const Factor& factor
       const double mean = expectation(i % size, i / size, c) * factor(i % size, i / size);
       double sum = 0, square = 0;
       for (int block = 0; block < noise.blocks; ++block) {
-        const double deviate = noise.shape > 1e6 ? normal(random) : (gamma(random) - noise.shape) / std::sqrt(noise.shape);
+        const double deviate =
+            noise.shape > 1e6 ? normal(random) : (gamma(random) - noise.shape) / std::sqrt(noise.shape);
         double value = mean * (1 + noise.deviation * deviate);
-        if (noise.rare > 0) value += mean * noise.spike * ((uniform(random) < noise.rare ? 1 / noise.rare : 0) - 1);
+        if (noise.rare > 0)
+          value += mean * noise.spike * ((uniform(random) < noise.rare ? 1 / noise.rare : 0) - 1);
         sum += value, square += value * value;
       }
       const double n = noise.blocks, scatter = std::max(0.0, square - sum * sum / n);
@@ -63,7 +65,9 @@ Image noisy_image(std::mt19937& random, const Noise& noise, double factor = 1, i
   return noisy_image(random, noise, Factor([factor](int, int) { return factor; }), size);
 }
 
-Comparison compare(const Image& a, const Image& b) { return compare_images(a, b, layer_variance(a, b)); }
+Comparison compare(const Image& a, const Image& b) {
+  return compare_images(a, b, layer_variance(a, b));
+}
 
 void expect_level(const Noise& a, const Noise& b, int size = kSize) {
   std::mt19937 random(7);
@@ -75,13 +79,27 @@ void expect_level(const Noise& a, const Noise& b, int size = kSize) {
   EXPECT_LE(rejected, most);
 }
 
-TEST(CompareLevel, NormalNoise) { expect_level({}, {}); }
-TEST(CompareLevel, SkewedNoise) { expect_level({0.5, 0.05}, {0.5, 0.05}); }
-TEST(CompareLevel, SkewedNoiseAgainstLessNoise) { expect_level({0.5, 0.05}, {0.1, 0.05, 16}); }
-TEST(CompareLevel, TwoBlocksOnly) { expect_level({0.3, 0.2, 2}, {0.3, 0.2, 2}); }
-TEST(CompareLevel, OverestimatedLayers) { expect_level({0.05, 1, 8, 10}, {0.3, 0.2, 8}); }
-TEST(CompareLevel, RareBrightPaths) { expect_level({0.2, 1, 8, 1, 1e-3, 0.1}, {0.2, 1, 8, 1, 1e-3, 0.1}); }
-TEST(CompareLevel, SmallImage) { expect_level({0.3, 0.2}, {0.3, 0.2}, 12); }
+TEST(CompareLevel, NormalNoise) {
+  expect_level({}, {});
+}
+TEST(CompareLevel, SkewedNoise) {
+  expect_level({0.5, 0.05}, {0.5, 0.05});
+}
+TEST(CompareLevel, SkewedNoiseAgainstLessNoise) {
+  expect_level({0.5, 0.05}, {0.1, 0.05, 16});
+}
+TEST(CompareLevel, TwoBlocksOnly) {
+  expect_level({0.3, 0.2, 2}, {0.3, 0.2, 2});
+}
+TEST(CompareLevel, OverestimatedLayers) {
+  expect_level({0.05, 1, 8, 10}, {0.3, 0.2, 8});
+}
+TEST(CompareLevel, RareBrightPaths) {
+  expect_level({0.2, 1, 8, 1, 1e-3, 0.1}, {0.2, 1, 8, 1, 1e-3, 0.1});
+}
+TEST(CompareLevel, SmallImage) {
+  expect_level({0.3, 0.2}, {0.3, 0.2}, 12);
+}
 
 TEST(CompareLevel, ExactSampleVariance) {
   std::mt19937 random(3);
@@ -89,7 +107,8 @@ TEST(CompareLevel, ExactSampleVariance) {
   const Noise noise{0.3, 1, 16};
   for (size_t c = 0; c < 3; ++c) {
     for (size_t i = 0; i < variance.channels[c].size(); ++i) {
-      const double mean = expectation(static_cast<int>(i) % kSize, static_cast<int>(i) / kSize, static_cast<int>(c));
+      const double mean =
+          expectation(static_cast<int>(i) % kSize, static_cast<int>(i) / kSize, static_cast<int>(c));
       reference.channels[c][i] = static_cast<float>(mean);
       variance.channels[c][i] = static_cast<float>(mean * mean * noise.deviation * noise.deviation);
     }
@@ -98,7 +117,8 @@ TEST(CompareLevel, ExactSampleVariance) {
   for (int trial = 0; trial < 100; ++trial)
     rejected += !compare_images(noisy_image(random, noise), reference, sample_variance(variance, 16)).agree();
   EXPECT_LE(rejected, 6);  // Binomial(100, 0.01) exceeds it with probability 6e-5
-  EXPECT_FALSE(compare_images(noisy_image(random, noise, 1.02), reference, sample_variance(variance, 16)).agree());
+  EXPECT_FALSE(
+      compare_images(noisy_image(random, noise, 1.02), reference, sample_variance(variance, 16)).agree());
 }
 
 TEST(ComparePower, BiasOfTheMeanOnePercent) {
@@ -106,8 +126,10 @@ TEST(ComparePower, BiasOfTheMeanOnePercent) {
   int found = 0;
   double detectable = 0;
   for (int trial = 0; trial < 100; ++trial) {
-    // As an Owen-sampled render against a reference of independent samples: layers of the first ten times too large.
-    const Comparison c = compare(noisy_image(random, {0.05, 1, 8, 10}, 1.01), noisy_image(random, {0.25, 0.5, 16}));
+    // As an Owen-sampled render against a reference of independent samples: layers of the first ten times too
+    // large.
+    const Comparison c =
+        compare(noisy_image(random, {0.05, 1, 8, 10}, 1.01), noisy_image(random, {0.25, 0.5, 16}));
     found += !c.test->means_agree;
     detectable += c.test->means[0].detectable / 100;
   }
@@ -124,7 +146,8 @@ TEST(ComparePower, TheStatedBiasOfTheMean) {
   int found = 0;
   const double alpha = 1 - std::pow(1 - 0.01, 1.0 / 9);  // three tests, three channels
   for (int trial = 0; trial < 100; ++trial)
-    found += compare(noisy_image(random, noise, 1 + stated), noisy_image(random, noise)).test->means[0].p < alpha;
+    found +=
+        compare(noisy_image(random, noise, 1 + stated), noisy_image(random, noise)).test->means[0].p < alpha;
   EXPECT_GE(found, 85);
   EXPECT_GT(stated, 0.005);
   EXPECT_LT(stated, 0.1);
@@ -133,7 +156,8 @@ TEST(ComparePower, TheStatedBiasOfTheMean) {
 TEST(ComparePower, TheStatedBiasOfABlock) {
   std::mt19937 random(17);
   const Noise noise{0.2, 1, 8};
-  const double stated = compare(noisy_image(random, noise), noisy_image(random, noise)).test->blocks.detectable;
+  const double stated =
+      compare(noisy_image(random, noise), noisy_image(random, noise)).test->blocks.detectable;
   const auto in_one_block = [&](int x, int y) { return x / 8 == 2 && y / 8 == 3 ? 1 + 1.1 * stated : 1.0; };
   int found = 0;
   for (int trial = 0; trial < 100; ++trial) {
@@ -147,7 +171,9 @@ TEST(ComparePower, TheStatedBiasOfABlock) {
 TEST(ComparePower, LocalBiasThatTheMeanHides) {
   std::mt19937 random(19);
   const auto brighter_and_darker = [](int x, int) { return x < kSize / 2 ? 1.1 : 0.9; };
-  const ZTest test = *compare(noisy_image(random, {0.1, 1, 16}, brighter_and_darker), noisy_image(random, {0.1, 1, 16})).test;
+  const ZTest test =
+      *compare(noisy_image(random, {0.1, 1, 16}, brighter_and_darker), noisy_image(random, {0.1, 1, 16}))
+           .test;
   EXPECT_FALSE(test.blocks_agree);
 }
 
@@ -202,7 +228,8 @@ TEST(Compare, BlackImagesAgree) {
 TEST(Compare, NonFiniteValuesNeverAgree) {
   std::mt19937 random(31);
   const Image good = noisy_image(random, {});
-  for (const float value : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+  for (const float value :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     for (size_t channel : {0, 4}) {
       Image bad = good;
       bad.channels[channel][100] = value;

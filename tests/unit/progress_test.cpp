@@ -29,7 +29,8 @@ TEST(Progress, BarFillsTheRoomAndNoMore) {
   for (int columns = 0; columns < 200; ++columns)
     EXPECT_LE(format_progress_bar(f, columns).size(), static_cast<size_t>(columns));
   EXPECT_EQ(format_progress_bar(f, 70).substr(0, 1), "[");
-  EXPECT_NE(format_progress_bar(f, 120).find("[####################--------------------]"), std::string::npos);
+  EXPECT_NE(format_progress_bar(f, 120).find("[####################--------------------]"),
+            std::string::npos);
   EXPECT_EQ(format_progress_bar(f, 40).find('['), std::string::npos);
 }
 
