@@ -136,8 +136,11 @@ Bvh8 build_bvh8(const BvhInput& input, const BvhSettings& settings) {
   timer = Timer();
   constexpr int kMaxBinaryDepth = 96;
   BinaryBvh binary = build_binary_bvh(bound_primitives(input, pairing.pairs), settings.bins, kMaxBinaryDepth);
-  const ExpectedVisits visits = expected_visits(binary);
   stats.build_seconds = timer.seconds();
+  timer = Timer();
+  optimise_binary_bvh(binary, settings.reinsertion_passes);
+  stats.optimise_seconds = timer.seconds();
+  const ExpectedVisits visits = expected_visits(binary);
 
   timer = Timer();
   FlatNodes flat = flatten_bvh8(binary, is_curved);

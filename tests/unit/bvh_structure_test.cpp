@@ -232,6 +232,22 @@ TEST(BvhStructure, BadNumbersAreRefused) {
   EXPECT_THROW(build_bvh8(s.input()), InputError);
 }
 
+TEST(BvhStructure, ReinsertionLowersTheCost) {
+  for (const TestScene& s : {triangle_soup(20000, .05, 14), bumpy_sphere(60, 120, .05, 15), huge_and_tiny(5000, 16)}) {
+    BvhSettings settings;
+    settings.reinsertion_passes = 0;
+    expect_valid(s, settings);
+    const BvhStatistics before = build_bvh8(s.input(), settings).statistics;
+    settings.reinsertion_passes = 12;
+    expect_valid(s, settings);
+    const BvhStatistics after = build_bvh8(s.input(), settings).statistics;
+    EXPECT_LT(after.sah_cost2, before.sah_cost2);
+    EXPECT_LT(after.sah_cost8, before.sah_cost8);
+    EXPECT_GT(after.sah_cost8, 1);
+    EXPECT_LT(after.sah_cost8, after.sah_cost2);
+  }
+}
+
 template <class T>
 void expect_same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
   ASSERT_EQ(a.size(), b.size());
