@@ -1,0 +1,62 @@
+// Lights. Written by host/pack/pack_light, read by light/*.glsl. Device space; radiometric values in linear Rec.709.
+//
+// Light (kBindLights): kLightRows rows of vec4, one record a primitive that emits, or a light without a shape.
+//   Every primitive of an emitting shape has a record of its own; those of a mesh follow each other in the order of
+//   its triangles, one a triangle, or one for each two triangles that form a rectangle. Shape row 0 names the first.
+//   row 0: radiance Le [W/sr/m^2] (point, spot: intensity I [W/sr]; directional: irradiance [W/m^2];
+//          spot, projector: times the texture); bits of kind | flags
+//   row 1..5, by kind:
+//     triangle, rectangle: 1: v0; hit of triangle 0      2: e1; texture row      3: e2; hit of triangle 1
+//                          4: n (unit, the side that emits); area                5: first triangle; trail or unit;
+//                             row of the corners' data (kNoIndex: none); unused
+//       A triangle is v0 + b1 e1 + b2 e2; a rectangle v0 + s e1 + t e2, e1 orthogonal to e2, whose triangle 0 is the
+//       half with s + t < 1.
+//     sphere:   1: centre; hit    2: radius, 1 if it emits inwards, unused; texture row    3..4: unused   5: as above
+//     disk:     1: centre; hit    2: e1; texture row   3: e2; unused   4: n; area          5: as above
+//               An ellipse: centre + r (e1 cos phi + e2 sin phi).
+//     cylinder: 1: base; hit      2: e1; texture row   3: e2; 1 if it emits inwards   4: axis; unused   5: as above
+//               base + e1 cos phi + e2 sin phi + z axis, 0 <= z <= 1.
+//     constant: nothing more
+//     environment: 1..3: rows of the rotation from world to the map; w: width, height (bits), unused
+//     point:    1: position
+//     directional: 1: direction towards the light
+//     spot:     1..3: rows of the transform of directions from world to the light's frame; w: position
+//               4: cos and angle of the cutoff, cos of the beam width, 1 / (cutoff - beam width) [radians]
+//               5: texture row; tan of the cutoff
+//     projector: 1..3: as spot; 4: 1 / tan(x_fov / 2), the same times aspect, cos of the corner, unused; 5: as spot
+//   Corners' data, where the radiance is a texture or the mesh has vertex normals, after all lights:
+//     row 0: uv of v0, uv of v0 + e1     row 1: uv of v0 + e2; unused     rows 2..4: vertex normals (smooth lights)
+//
+// Table (kBindLightTable): rows of uvec4, floats by their bits.
+//   row 0: number of units; row of the unit that is the light tree (kNoIndex: none); environment's first light row
+//          (kNoIndex: none); importance of the environment (bits)
+//   then the units that the loop chooses among, kLightNodeRows rows each, then the tree's nodes: two children a node.
+//   Unit or child, "light bounds" as in Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights":
+//     row 0: centre; radius of the sphere around it, negative for infinite lights
+//     row 1: axis of the cone of normals; power: estimated irradiance at p is power * cos(theta') / (d^2 + radius^2),
+//            for infinite lights power itself
+//     row 2: cos theta_o; sin theta_o; cos theta_e; light row, or kLightNode | row of a node's first child
+#ifndef TACHYLITE_SHARED_LIGHT_H
+#define TACHYLITE_SHARED_LIGHT_H
+#include "features.h"
+#include "interop.h"
+TACHYLITE_SHARED_BEGIN
+
+TACHYLITE_CONST uint kLightRows = 6u;
+TACHYLITE_CONST uint kLightNodeRows = 3u;
+TACHYLITE_CONST uint kLightNode = 0x80000000u;
+TACHYLITE_CONST uint kLightTableHeaderRows = 1u;
+TACHYLITE_CONST uint kMaxLoopLights = 32u;  // more are put into a tree
+
+// Row 0, word w.
+TACHYLITE_CONST uint kLightKindMask = 0xffu;
+TACHYLITE_CONST uint kLightSmooth = 1u << 8u;   // emission is seen by vertex normals
+TACHYLITE_CONST uint kLightPairs = 1u << 9u;    // two triangles of the shape to a record
+
+// Bits of the set of light kinds (kFeatureLights) that are no kinds.
+TACHYLITE_CONST uint kLightsSmooth = 16u;      // some light is smooth
+TACHYLITE_CONST uint kLightsSphericalTriangles = 17u;  // triangles are sampled by solid angle where it pays
+TACHYLITE_CONST uint kLightsSampledConstant = 18u;     // the constant environment is among the lights to sample
+
+TACHYLITE_SHARED_END
+#endif
