@@ -129,8 +129,7 @@ Bvh8 build_bvh8(const BvhInput& input, const BvhSettings& settings) {
   check_curved(input);
   const Pairing pairing = pair_triangles(input, kMaxAreaRatio);
   const size_t leaves = pairing.pairs.size() + input.curved.size();
-  std::vector<uint8_t> is_curved(leaves, 0);
-  std::fill(is_curved.begin() + static_cast<ptrdiff_t>(pairing.pairs.size()), is_curved.end(), uint8_t{1});
+  const auto first_curved = static_cast<uint32_t>(pairing.pairs.size());
   stats.pair_seconds = timer.seconds();
 
   timer = Timer();
@@ -143,11 +142,11 @@ Bvh8 build_bvh8(const BvhInput& input, const BvhSettings& settings) {
   const ExpectedVisits visits = expected_visits(binary);
 
   timer = Timer();
-  FlatNodes flat = flatten_bvh8(binary, is_curved);
+  FlatNodes flat = flatten_bvh8(binary, first_curved);
   if (flat.depth > static_cast<int>(gpu::kBvhMaxDepth)) {
     // A wide tree is never deeper than the binary one.
     binary = build_binary_bvh(bound_primitives(input, pairing.pairs), settings.bins, gpu::kBvhMaxDepth);
-    flat = flatten_bvh8(binary, is_curved);
+    flat = flatten_bvh8(binary, first_curved);
   }
   CHECK_LE(flat.depth, static_cast<int>(gpu::kBvhMaxDepth));
   bvh.nodes = std::move(flat.rows);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -18,12 +17,12 @@ struct FlatNodes {
   uint64_t nodes = 0, children = 0;
   int depth = 0;
   double node_visits = 0,
-         leaf_visits = 0;  // expected, of a random ray that hits the root's box; quantised boxes
+         leaf_visits = 0;  // expected, of a random line that hits the root's box; quantised boxes
 };
 
-/// Collapses to 8-wide nodes of least total surface area (Ylitie, Karras and Laine 2017, section 3.1, with
-/// leaves of one primitive). is_curved(primitive) says which leaves go into curved_mask. Throws RenderError
-/// if there are more nodes than child_base can address.
-FlatNodes flatten_bvh8(const BinaryBvh& bvh, std::span<const uint8_t> is_curved);
+/// Collapses to 8-wide nodes, orders their children and encodes them. Primitives from first_curved on are
+/// curved. Deterministic for any number of threads. Throws RenderError if there are more nodes than can be
+/// addressed.
+FlatNodes flatten_bvh8(const BinaryBvh& bvh, uint32_t first_curved);
 
 }  // namespace tachylite
