@@ -27,6 +27,7 @@ std::optional<ConductorIndex> find_conductor(const std::string& name) {
   // 0.
   static const std::map<std::string, ConductorIndex> table{
       {"none", {glm::dvec3(0), glm::dvec3(1)}},
+      {"a-C", {{2.94405, 2.22714, 1.96816}, {.88746, .79930, .81529}}},
       {"Ag", {{.15528, .11673, .13839}, {4.82835, 3.12222, 2.14690}}},
       {"Al", {{1.65750, .88040, .52124}, {9.22381, 6.26950, 4.83700}}},
       {"Au", {{.14304, .37531, 1.44205}, {3.98300, 2.38556, 1.60336}}},

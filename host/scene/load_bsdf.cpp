@@ -65,7 +65,7 @@ void read_conductor(const Plugin& plugin, T& bsdf) {
   } else {
     const auto index = find_conductor(plugin.string("material", plugin.node().legacy ? "Cu" : "none"));
     if (!index)
-      plugin.fail("material", "none, Ag, Al, Au, Cr or Cu; others are not supported: give eta and k");
+      plugin.fail("material", "none, a-C, Ag, Al, Au, Cr or Cu; others are not supported: give eta and k");
     bsdf.eta = index->eta;
     bsdf.k = index->k;
   }
@@ -165,11 +165,16 @@ BsdfKind load_principled(const Plugin& plugin) {
   read("clearcoat_gloss", b.clearcoat_gloss);
   if (plugin.has("eta") && plugin.has("specular"))
     throw InputError(plugin.where("eta"), "principled has eta as well as specular");
-  // eta from Disney's `specular` = ((eta - 1) / (eta + 1))^2 / 0.08; 0 would mean an eta of 1, which Mitsuba
-  // avoids.
-  const double specular = plugin.real("specular", 0.5, kUnit);
-  b.eta = plugin.has("eta") ? plugin.real("eta", 1.5, kPositive)
-                            : 2 / (1 - std::sqrt(0.08 * std::max(specular, 1e-3 * 1e-3))) - 1;
+  // eta from Disney's `specular` = ((eta - 1) / (eta + 1))^2 / 0.08. What transmits needs an eta other than 1.
+  const bool transmits = b.spec_trans.texture != kNone || b.spec_trans.value > 0;
+  if (plugin.has("eta")) {
+    b.eta = plugin.real("eta", 1.5, kPositive);
+    if (transmits && b.eta == 1) b.eta = 1.001;
+  } else {
+    double specular = plugin.real("specular", 0.5, kUnit);
+    if (transmits && specular == 0) specular = 1e-3;
+    b.eta = 2 / (1 - std::sqrt(0.08 * specular)) - 1;
+  }
   b.diffuse_reflectance_sampling_rate = plugin.real("diffuse_reflectance_sampling_rate", 1, kNotNegative);
   b.main_specular_sampling_rate = plugin.real("main_specular_sampling_rate", 1, kNotNegative);
   b.clearcoat_sampling_rate = plugin.real("clearcoat_sampling_rate", 1, kNotNegative);

@@ -59,7 +59,7 @@ Volume load_volume(SceneLoader& loader, const XmlNode& node, const Plugin& owner
   Volume volume;
   volume.where = node.where;
   if (node.tag != "volume") {
-    volume.constant = parse_color(node, owner.type(), use);
+    volume.constant = parse_color(loader, node, owner.type(), use);
     return volume;
   }
   const Plugin plugin(loader, node);

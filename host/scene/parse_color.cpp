@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/read_file.h"
 #include "scene/parse_value.h"
+#include "scene/text_cursor.h"
 
 namespace tachylite {
 namespace {
@@ -39,32 +40,61 @@ dvec3 parse_srgb(const XmlNode& node, const std::string& owner) {
   return linear;
 }
 
-dvec3 parse_samples(const XmlNode& node, const std::string& owner, const std::vector<std::string_view>& pairs,
-                    ColorUse use) {
-  std::vector<double> wavelengths, values;
+/// Samples that are added one by one, then integrated.
+class Samples {
+ public:
+  /// False when the wavelength does not rise or the value is negative.
+  bool add(double wavelength, double value) {
+    if (value < 0 || (!wavelengths_.empty() && wavelength <= wavelengths_.back())) return false;
+    wavelengths_.push_back(wavelength);
+    values_.push_back(value);
+    return true;
+  }
+  size_t size() const { return values_.size(); }
+  dvec3 rgb(ColorUse use) const { return spectrum_to_rgb(wavelengths_, values_, use); }
+
+ private:
+  std::vector<double> wavelengths_, values_;
+};
+
+dvec3 parse_pairs(const XmlNode& node, const std::string& owner, const std::vector<std::string_view>& pairs,
+                  ColorUse use) {
+  Samples samples;
   for (const std::string_view pair : pairs) {
     const size_t colon = pair.find(':');
     const auto wavelength = parse_real(pair.substr(0, colon));
     const auto value = colon == pair.npos ? std::nullopt : parse_real(pair.substr(colon + 1));
     if (!wavelength || !value) fail(node, owner, "one number or pairs of wavelength:value");
-    if (!wavelengths.empty() && *wavelength <= wavelengths.back()) fail(node, owner, "wavelengths that rise");
-    if (*value < 0) fail(node, owner, "no negative values");
-    wavelengths.push_back(*wavelength);
-    values.push_back(*value);
+    if (!samples.add(*wavelength, *value)) fail(node, owner, "wavelengths that rise and no negative values");
   }
-  if (wavelengths.size() < 2) fail(node, owner, "at least two pairs of wavelength:value");
-  return spectrum_to_rgb(wavelengths, values, use);
+  if (samples.size() < 2) fail(node, owner, "at least two pairs of wavelength:value");
+  return samples.rgb(use);
 }
 
-dvec3 parse_spectrum(const XmlNode& node, const std::string& owner, ColorUse use) {
+/// A wavelength [nm] and a value on each line; # starts a comment.
+dvec3 read_spectrum_file(const std::filesystem::path& file, ColorUse use) {
+  const FileBytes bytes = read_file(file, uint64_t{1} << 24);
+  Samples samples;
+  for (TextCursor cursor(bytes.view(), locate_file(file)); !cursor.at_end(); cursor.skip_line()) {
+    if (cursor.at_line_end() || cursor.rest().starts_with('#')) continue;
+    const float wavelength = cursor.real("wavelength");
+    if (!samples.add(wavelength, cursor.real("value"))) cursor.fail("expected wavelengths that rise and no negative values");
+    if (!cursor.at_line_end()) cursor.fail("expected a wavelength and a value on each line");
+  }
+  if (samples.size() < 2) throw InputError(locate_file(file), "the spectrum has less than two samples");
+  return samples.rgb(use);
+}
+
+dvec3 parse_spectrum(const SceneLoader& loader, const XmlNode& node, const std::string& owner, ColorUse use) {
   if (node.has("type"))
     throw InputError(node.where, fmt::format("the spectrum plugin {} is not supported", node.type()));
-  if (node.has("filename"))
-    throw InputError(node.where,
-                     fmt::format("{} of {}: spectra from files are not supported", node.name(), owner));
+  if (node.has("filename")) {
+    if (node.has("value")) fail(node, owner, "either value or filename");
+    return read_spectrum_file(loader.find_file(node, node.attribute("filename")), use);
+  }
   const auto parts = split_list(node.attribute("value"));
   if (parts.empty()) fail(node, owner, "one number or pairs of wavelength:value");
-  if (parts[0].find(':') != std::string_view::npos) return parse_samples(node, owner, parts, use);
+  if (parts[0].find(':') != std::string_view::npos) return parse_pairs(node, owner, parts, use);
   if (node.legacy && parts.size() == 3) return parse_triple(node, owner);  // 0.6 as compiled for RGB
   if (parts.size() != 1) fail(node, owner, "one number or pairs of wavelength:value");
   const dvec3 constant = parse_triple(node, owner);
@@ -77,7 +107,7 @@ double luminance(const dvec3& rgb) {
   return glm::dot(rgb, dvec3(.212671, .715160, .072169));
 }
 
-dvec3 parse_color(const XmlNode& node, const std::string& owner, ColorUse use) {
+dvec3 parse_color(const SceneLoader& loader, const XmlNode& node, const std::string& owner, ColorUse use) {
   dvec3 color;
   if (node.tag == "float" || node.tag == "integer") {
     const auto value = parse_real(node.attribute("value"));
@@ -88,7 +118,7 @@ dvec3 parse_color(const XmlNode& node, const std::string& owner, ColorUse use) {
   } else if (node.tag == "srgb") {
     color = parse_srgb(node, owner);
   } else if (node.tag == "spectrum") {
-    color = parse_spectrum(node, owner, use);
+    color = parse_spectrum(loader, node, owner, use);
   } else {
     throw InputError(node.where, fmt::format("{} of {} is a <{}>, expected a colour or a texture",
                                              node.name(), owner, node.tag));

@@ -155,7 +155,7 @@ ColorInput Plugin::color(std::string_view name, const ColorInput& absent, ColorU
   if (!child) return absent;
   child->used = true;
   const XmlNode& target = loader_.resolve(*child);
-  if (target.tag != "texture") return parse_color(target, type(), use);
+  if (target.tag != "texture") return parse_color(loader_, target, type(), use);
   ColorInput input;
   input.texture = loader_.texture(target);
   return input;
@@ -171,7 +171,7 @@ ScalarInput Plugin::scalar(std::string_view name, const ScalarInput& absent, Ran
   if (target.tag == "texture") {
     input.texture = loader_.texture(target);
   } else {
-    input.value = luminance(parse_color(target, type(), ColorUse::kIor));
+    input.value = luminance(parse_color(loader_, target, type(), ColorUse::kIor));
     if (!contains(range, input.value)) fail(name, describe(range));
   }
   return input;

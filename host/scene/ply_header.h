@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scene/text_cursor.h"
+
+namespace tachylite {
+
+enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
+size_t byte_size(PlyType type);
+/// Largest value of an integer type, 0 for floating point types.
+double largest_integer(PlyType type);
+
+struct PlyProperty {
+  std::string name;
+  PlyType type;
+  bool is_list = false;
+  PlyType count_type = PlyType::kUint8;  // of lists
+};
+
+struct PlyElement {
+  std::string name;
+  uint64_t count = 0;
+  std::vector<PlyProperty> properties;
+  FileLocation where;
+
+  int find(std::string_view property) const;  // its index, or -1
+};
+
+struct PlyHeader {
+  enum class Format { kAscii, kLittleEndian, kBigEndian };
+  Format format = Format::kAscii;
+  std::vector<PlyElement> elements;
+
+  const PlyElement* find(std::string_view element) const;
+};
+
+/// Reads up to and including the line end_header. Counts of elements are checked against the bytes that
+/// follow, so that memory may be reserved for them.
+PlyHeader read_ply_header(TextCursor& cursor);
+
+}  // namespace tachylite
