@@ -10,7 +10,7 @@ constexpr int kCieCount = (kCieLast - kCieFirst) / kCieStep + 1;
 
 /// CIE 1931 2-degree standard observer (CIE 015:2018).
 extern const std::array<double, kCieCount> kCieX, kCieY, kCieZ;
-/// Integral of kCieY over wavelength [nm].
+/// Integral of kCieY over wavelength [nm] by 1000 equal weights from end to end: 0.999 of the true one.
 constexpr double kCieYIntegral = 106.7502593994140625;
 
 /// Relative power of CIE standard illuminant D65, 100 at 560 nm.

@@ -165,7 +165,8 @@ BsdfKind load_principled(const Plugin& plugin) {
   read("clearcoat_gloss", b.clearcoat_gloss);
   if (plugin.has("eta") && plugin.has("specular"))
     throw InputError(plugin.where("eta"), "principled has eta as well as specular");
-  // eta from Disney's `specular` = ((eta - 1) / (eta + 1))^2 / 0.08. What transmits needs an eta other than 1.
+  // eta from Disney's `specular` = ((eta - 1) / (eta + 1))^2 / 0.08. What transmits needs an eta other
+  // than 1.
   const bool transmits = b.spec_trans.texture != kNone || b.spec_trans.value > 0;
   if (plugin.has("eta")) {
     b.eta = plugin.real("eta", 1.5, kPositive);

@@ -78,7 +78,8 @@ dvec3 read_spectrum_file(const std::filesystem::path& file, ColorUse use) {
   for (TextCursor cursor(bytes.view(), locate_file(file)); !cursor.at_end(); cursor.skip_line()) {
     if (cursor.at_line_end() || cursor.rest().starts_with('#')) continue;
     const float wavelength = cursor.real("wavelength");
-    if (!samples.add(wavelength, cursor.real("value"))) cursor.fail("expected wavelengths that rise and no negative values");
+    if (!samples.add(wavelength, cursor.real("value")))
+      cursor.fail("expected wavelengths that rise and no negative values");
     if (!cursor.at_line_end()) cursor.fail("expected a wavelength and a value on each line");
   }
   if (samples.size() < 2) throw InputError(locate_file(file), "the spectrum has less than two samples");

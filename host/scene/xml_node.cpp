@@ -23,7 +23,8 @@ struct Attributes {
 
 /// Elements of the format. Objects name a plugin by `type`.
 const Attributes* find_attributes(std::string_view tag) {
-  static const Attributes object{{"type", "id", "name"}, {"type"}};
+  static const Attributes object{{"type", "id", "name", "version"},
+                                 {"type"}};  // version: as root of an include
   static const Attributes value{{"name", "value"}, {"name", "value"}};
   static const Attributes color{{"name", "value", "intent"}, {"name", "value"}};
   static const Attributes vector{{"name", "value", "x", "y", "z"}, {"name"}};

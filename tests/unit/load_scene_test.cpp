@@ -10,7 +10,8 @@ constexpr const char* kSphere = "<shape type=\"sphere\"/>";
 class LoadTransform : public LoadTest {
  protected:
   dmat4 transform(const std::string& operations) const {
-    return load_body("<shape type=\"rectangle\"><transform name=\"to_world\">" + operations + "</transform></shape>")
+    return load_body("<shape type=\"rectangle\"><transform name=\"to_world\">" + operations +
+                     "</transform></shape>")
         .shapes[0]
         .to_world;
   }
@@ -50,7 +51,8 @@ TEST_F(LoadTransform, PartialAxes) {
 }
 
 TEST_F(LoadTransform, Similarities) {
-  EXPECT_TRUE(is_similarity(transform("<rotate value=\"1, 2, 3\" angle=\"50\"/><scale value=\"7\"/>"), 1e-12));
+  EXPECT_TRUE(
+      is_similarity(transform("<rotate value=\"1, 2, 3\" angle=\"50\"/><scale value=\"7\"/>"), 1e-12));
   EXPECT_TRUE(is_similarity(transform("<scale x=\"-2\" y=\"2\" z=\"2\"/>"), 1e-12));
   EXPECT_FALSE(is_similarity(transform("<scale x=\"1.01\"/>")));
   EXPECT_FALSE(is_similarity(transform("<matrix value=\"1 0.1 0 0 1 0 0 0 1\"/>")));
@@ -61,8 +63,10 @@ using LoadScene = LoadTest;
 TEST_F(LoadScene, ParametersWinOverDefaults) {
   const std::string xml =
       "<scene version=\"3.0.0\"><default name=\"n\" value=\"16\"/><default name=\"nx\" value=\"8\"/>"
-      "<sensor type=\"perspective\"><sampler type=\"independent\"><integer name=\"sample_count\" value=\"$n\"/></sampler>"
-      "<film type=\"hdrfilm\"><integer name=\"width\" value=\"$nx\"/><integer name=\"height\" value=\"$nx2\"/></film>"
+      "<sensor type=\"perspective\"><sampler type=\"independent\"><integer name=\"sample_count\" "
+      "value=\"$n\"/></sampler>"
+      "<film type=\"hdrfilm\"><integer name=\"width\" value=\"$nx\"/><integer name=\"height\" "
+      "value=\"$nx2\"/></film>"
       "</sensor><emitter type=\"constant\"/></scene>";
   const Scene plain = load(xml);
   EXPECT_EQ(plain.sensors[0].sample_count, 16);
@@ -77,7 +81,8 @@ TEST_F(LoadScene, IncludesAndPaths) {
   write("parts/light.xml",
         "<scene version=\"0.6.0\"><default name=\"watt\" value=\"7\"/>"
         "<emitter type=\"point\"><spectrum name=\"intensity\" value=\"$watt\"/></emitter></scene>");
-  write("parts/ball.xml", "<shape type=\"obj\" version=\"3.0.0\"><string name=\"filename\" value=\"tri.obj\"/></shape>");
+  write("parts/ball.xml",
+        "<shape type=\"obj\" version=\"3.0.0\"><string name=\"filename\" value=\"tri.obj\"/></shape>");
   write("models/tri.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const Scene scene = load(
       "<scene version=\"3.0.0\"><path value=\"models\"/><sensor type=\"perspective\"/>"
@@ -90,21 +95,25 @@ TEST_F(LoadScene, IncludesAndPaths) {
 TEST_F(LoadScene, ReferencesAreSharedAndMayComeFirst) {
   const Scene scene = load_body(
       "<shape type=\"sphere\"><ref id=\"other\"/></shape><shape type=\"cube\"><ref id=\"red\"/></shape>"
-      "<bsdf type=\"diffuse\" id=\"red\"/><alias id=\"red\" as=\"other\"/><bsdf type=\"plastic\" id=\"unused\"/>");
+      "<bsdf type=\"diffuse\" id=\"red\"/><alias id=\"red\" as=\"other\"/><bsdf type=\"plastic\" "
+      "id=\"unused\"/>");
   EXPECT_EQ(scene.shapes[0].bsdf, scene.shapes[1].bsdf);
   ASSERT_EQ(scene.bsdfs.size(), 1);  // what nothing refers to is not kept
   EXPECT_EQ(scene.bsdfs[0].id, "red");
 }
 
 TEST_F(LoadScene, UnusedObjectsAreCheckedAllTheSame) {
-  const std::string unused = "<bsdf type=\"diffuse\" id=\"x\"><float name=\"reflectance\" value=\"two\"/></bsdf>";
+  const std::string unused =
+      "<bsdf type=\"diffuse\" id=\"x\"><float name=\"reflectance\" value=\"two\"/></bsdf>";
   EXPECT_THROW(load_body(unused + kSphere), InputError);
 }
 
 TEST_F(LoadScene, ShapesWithoutBsdf) {
-  const Scene scene = load_body("<shape type=\"sphere\"/><shape type=\"disk\"><emitter type=\"area\"/></shape>");
+  const Scene scene =
+      load_body("<shape type=\"sphere\"/><shape type=\"disk\"><emitter type=\"area\"/></shape>");
   const auto reflectance = [&](int shape) {
-    return std::get<DiffuseBsdf>(scene.bsdfs[static_cast<size_t>(scene.shapes[static_cast<size_t>(shape)].bsdf)].kind)
+    return std::get<DiffuseBsdf>(
+               scene.bsdfs[static_cast<size_t>(scene.shapes[static_cast<size_t>(shape)].bsdf)].kind)
         .reflectance.value;
   };
   EXPECT_EQ(reflectance(0), dvec3(0.5));
@@ -115,11 +124,12 @@ TEST_F(LoadScene, ShapesWithoutBsdf) {
 
 TEST_F(LoadScene, FieldsOfView) {
   const auto x_fov = [&](const std::string& parameters) {
-    return glm::degrees(load("<scene version=\"3.0.0\"><sensor type=\"perspective\">" + parameters +
-                             "<film type=\"hdrfilm\"><integer name=\"width\" value=\"200\"/>"
-                             "<integer name=\"height\" value=\"100\"/></film></sensor><emitter type=\"constant\"/></scene>")
-                            .sensors[0]
-                            .x_fov);
+    return glm::degrees(
+        load("<scene version=\"3.0.0\"><sensor type=\"perspective\">" + parameters +
+             "<film type=\"hdrfilm\"><integer name=\"width\" value=\"200\"/>"
+             "<integer name=\"height\" value=\"100\"/></film></sensor><emitter type=\"constant\"/></scene>")
+            .sensors[0]
+            .x_fov);
   };
   const std::string fov = "<float name=\"fov\" value=\"60\"/><string name=\"fov_axis\" value=\"";
   const double y_as_x = glm::degrees(2 * std::atan(2 * std::tan(glm::radians(30.0))));
@@ -128,17 +138,20 @@ TEST_F(LoadScene, FieldsOfView) {
   EXPECT_NEAR(x_fov(fov + "smaller\"/>"), y_as_x, 1e-12);
   EXPECT_NEAR(x_fov(fov + "larger\"/>"), 60, 1e-12);
   // Half the diagonal is tan 30; half the width is 2/sqrt(5) of it.
-  EXPECT_NEAR(x_fov(fov + "diagonal\"/>"), glm::degrees(2 * std::atan(std::tan(glm::radians(30.0)) * 2 / std::sqrt(5))), 1e-12);
+  EXPECT_NEAR(x_fov(fov + "diagonal\"/>"),
+              glm::degrees(2 * std::atan(std::tan(glm::radians(30.0)) * 2 / std::sqrt(5))), 1e-12);
   // 50 mm on 36 x 24: half the diagonal is 21.633 / 50.
   EXPECT_NEAR(x_fov(""), glm::degrees(2 * std::atan(0.4326661530556787 * 2 / std::sqrt(5))), 1e-12);
 }
 
 TEST_F(LoadScene, Films) {
   const Scene scene = load(
-      "<scene version=\"3.0.0\"><sensor type=\"perspective\"/><sensor type=\"orthographic\" id=\"second\"><film type=\"hdrfilm\">"
+      "<scene version=\"3.0.0\"><sensor type=\"perspective\"/><sensor type=\"orthographic\" "
+      "id=\"second\"><film type=\"hdrfilm\">"
       "<integer name=\"width\" value=\"64\"/><integer name=\"height\" value=\"48\"/>"
       "<integer name=\"crop_offset_x\" value=\"10\"/><integer name=\"crop_width\" value=\"20\"/>"
-      "<string name=\"pixel_format\" value=\"rgb\"/><rfilter type=\"tent\"><float name=\"radius\" value=\"1.5\"/></rfilter>"
+      "<string name=\"pixel_format\" value=\"rgb\"/><rfilter type=\"tent\"><float name=\"radius\" "
+      "value=\"1.5\"/></rfilter>"
       "</film></sensor><emitter type=\"constant\"/></scene>");
   const Film& plain = scene.sensors[0].film;
   EXPECT_EQ(plain.width, 768);
@@ -158,8 +171,10 @@ TEST_F(LoadScene, Integrators) {
   const auto integrator = [&](const std::string& xml) { return load_body(xml + kSphere).integrator; };
   EXPECT_EQ(integrator("").kind, Integrator::Kind::kPath);
   const Integrator wrapped = integrator(
-      "<integrator type=\"aov\"><string name=\"aovs\" value=\"a:albedo, dd.y:depth\"/><integrator type=\"moment\">"
-      "<integrator type=\"volpathmis\"><integer name=\"max_depth\" value=\"7\"/></integrator></integrator></integrator>");
+      "<integrator type=\"aov\"><string name=\"aovs\" value=\"a:albedo, dd.y:depth\"/><integrator "
+      "type=\"moment\">"
+      "<integrator type=\"volpathmis\"><integer name=\"max_depth\" "
+      "value=\"7\"/></integrator></integrator></integrator>");
   EXPECT_EQ(wrapped.kind, Integrator::Kind::kVolpathMis);
   EXPECT_EQ(wrapped.max_depth, 7);
   EXPECT_TRUE(wrapped.moment);
@@ -173,7 +188,8 @@ TEST_F(LoadScene, Emitters) {
   const Scene scene = load(
       "<scene version=\"3.0.0\"><sensor type=\"perspective\"/>"
       "<emitter type=\"point\"><transform name=\"to_world\"><translate x=\"3\"/></transform></emitter>"
-      "<emitter type=\"directional\"><transform name=\"to_world\"><lookat origin=\"0,5,0\" target=\"0,0,0\" up=\"1,0,0\"/>"
+      "<emitter type=\"directional\"><transform name=\"to_world\"><lookat origin=\"0,5,0\" target=\"0,0,0\" "
+      "up=\"1,0,0\"/>"
       "</transform></emitter>"
       "<emitter type=\"spot\"><float name=\"cutoff_angle\" value=\"40\"/></emitter></scene>");
   EXPECT_EQ(only<PointEmitter>(scene.emitters).position, dvec3(3, 0, 0));
@@ -186,17 +202,21 @@ TEST_F(LoadScene, BsdfDefaultsAndNesting) {
     return load_body("<shape type=\"sphere\">" + bsdf + "</shape>", version).bsdfs;
   };
   EXPECT_NEAR(only<DielectricBsdf>(load_bsdf("<bsdf type=\"dielectric\"/>")).eta, 1.5046 / 1.000277, 1e-15);
-  EXPECT_NEAR(only<PlasticBsdf>(load_bsdf("<bsdf type=\"plastic\"><string name=\"int_ior\" value=\"Diamond\"/>"
-                                          "<float name=\"ext_ior\" value=\"1\"/></bsdf>"))
-                  .eta,
-              2.419, 1e-15);
+  EXPECT_NEAR(
+      only<PlasticBsdf>(load_bsdf("<bsdf type=\"plastic\"><string name=\"int_ior\" value=\"Diamond\"/>"
+                                  "<float name=\"ext_ior\" value=\"1\"/></bsdf>"))
+          .eta,
+      2.419, 1e-15);
   EXPECT_NEAR(only<PrincipledBsdf>(load_bsdf("<bsdf type=\"principled\"/>")).eta, 1.5, 1e-12);
   EXPECT_EQ(only<ConductorBsdf>(load_bsdf("<bsdf type=\"conductor\"/>")).k.value, dvec3(1));
   const auto nested = load_bsdf(
-      "<bsdf type=\"mask\"><float name=\"opacity\" value=\"0.25\"/><bsdf type=\"twosided\"><bsdf type=\"diffuse\"/>"
-      "<bsdf type=\"roughconductor\"><float name=\"alpha_u\" value=\"0.1\"/><float name=\"alpha_v\" value=\"0.3\"/>"
+      "<bsdf type=\"mask\"><float name=\"opacity\" value=\"0.25\"/><bsdf type=\"twosided\"><bsdf "
+      "type=\"diffuse\"/>"
+      "<bsdf type=\"roughconductor\"><float name=\"alpha_u\" value=\"0.1\"/><float name=\"alpha_v\" "
+      "value=\"0.3\"/>"
       "<string name=\"material\" value=\"Au\"/></bsdf></bsdf></bsdf>");
-  const auto& twosided = std::get<TwoSidedBsdf>(nested[static_cast<size_t>(only<MaskBsdf>(nested).child)].kind);
+  const auto& twosided =
+      std::get<TwoSidedBsdf>(nested[static_cast<size_t>(only<MaskBsdf>(nested).child)].kind);
   EXPECT_TRUE(std::holds_alternative<DiffuseBsdf>(nested[static_cast<size_t>(twosided.front)].kind));
   const auto& metal = std::get<RoughConductorBsdf>(nested[static_cast<size_t>(twosided.back)].kind);
   EXPECT_EQ(metal.roughness.alpha_v.value, 0.3);
@@ -205,7 +225,8 @@ TEST_F(LoadScene, BsdfDefaultsAndNesting) {
 
 TEST_F(LoadScene, Media) {
   const Scene scene = load_body(
-      "<medium type=\"homogeneous\" id=\"fog\"><float name=\"sigma_t\" value=\"3\"/><float name=\"scale\" value=\"2\"/>"
+      "<medium type=\"homogeneous\" id=\"fog\"><float name=\"sigma_t\" value=\"3\"/><float name=\"scale\" "
+      "value=\"2\"/>"
       "<phase type=\"blendphase\"><float name=\"weight\" value=\"0.25\"/><phase type=\"isotropic\"/>"
       "<phase type=\"hg\"><float name=\"g\" value=\"-0.5\"/></phase></phase></medium>"
       "<shape type=\"sphere\"><bsdf type=\"null\"/><ref id=\"fog\" name=\"interior\"/></shape>"
@@ -219,25 +240,30 @@ TEST_F(LoadScene, Media) {
   EXPECT_EQ(scene.shapes[0].exterior, kNone);
   EXPECT_EQ(scene.shapes[1].exterior, 0);
   EXPECT_TRUE(scene.shapes[1].is_medium_boundary);
-  EXPECT_TRUE(std::holds_alternative<DiffuseBsdf>(scene.bsdfs[static_cast<size_t>(scene.shapes[1].bsdf)].kind));
+  EXPECT_TRUE(
+      std::holds_alternative<DiffuseBsdf>(scene.bsdfs[static_cast<size_t>(scene.shapes[1].bsdf)].kind));
 }
 
 TEST_F(LoadScene, SpellingsOfVersion06) {
   const Scene scene = load(
       "<scene version=\"0.6.0\"><integrator type=\"path\"><integer name=\"maxDepth\" value=\"9\"/>"
       "<integer name=\"rrDepth\" value=\"6\"/><boolean name=\"strictNormals\" value=\"false\"/></integrator>"
-      "<sensor type=\"thinlens\"><float name=\"apertureRadius\" value=\"0.2\"/><float name=\"focusDistance\" value=\"4\"/>"
+      "<sensor type=\"thinlens\"><float name=\"apertureRadius\" value=\"0.2\"/><float name=\"focusDistance\" "
+      "value=\"4\"/>"
       "<string name=\"fovAxis\" value=\"x\"/><float name=\"fov\" value=\"30\"/><transform name=\"toWorld\">"
       "<lookAt origin=\"0,0,5\" target=\"0,0,0\" up=\"0,1,0\"/></transform>"
       "<sampler type=\"sobol\"><integer name=\"sampleCount\" value=\"32\"/></sampler>"
-      "<film type=\"ldrfilm\"><float name=\"gamma\" value=\"2.2\"/><integer name=\"cropOffsetX\" value=\"3\"/></film></sensor>"
+      "<film type=\"ldrfilm\"><float name=\"gamma\" value=\"2.2\"/><integer name=\"cropOffsetX\" "
+      "value=\"3\"/></film></sensor>"
       "<emitter type=\"spot\"><float name=\"cutoffAngle\" value=\"10\"/></emitter>"
       "<shape type=\"sphere\"><bsdf type=\"roughplastic\"><float name=\"intIOR\" value=\"1.5\"/>"
       "<float name=\"extIOR\" value=\"1\"/><rgb name=\"diffuseReflectance\" value=\"0.1\"/></bsdf></shape>"
       "<shape type=\"cube\"><bsdf type=\"roughconductor\"><float name=\"alphaU\" value=\"0.2\"/>"
-      "<float name=\"alphaV\" value=\"0.3\"/><float name=\"extEta\" value=\"2\"/><rgb name=\"eta\" value=\"1,2,3\"/>"
+      "<float name=\"alphaV\" value=\"0.3\"/><float name=\"extEta\" value=\"2\"/><rgb name=\"eta\" "
+      "value=\"1,2,3\"/>"
       "<rgb name=\"k\" value=\"2,4,6\"/></bsdf></shape>"
-      "<shape type=\"rectangle\"><medium type=\"homogeneous\" name=\"interior\"><rgb name=\"sigmaS\" value=\"1,2,3\"/>"
+      "<shape type=\"rectangle\"><medium type=\"homogeneous\" name=\"interior\"><rgb name=\"sigmaS\" "
+      "value=\"1,2,3\"/>"
       "<rgb name=\"sigmaA\" value=\"1,0,0\"/></medium></shape>"
       "<shape type=\"disk\"><bsdf type=\"conductor\"/></shape></scene>");
   EXPECT_EQ(scene.integrator.max_depth, 9);
@@ -259,7 +285,8 @@ TEST_F(LoadScene, SpellingsOfVersion06) {
 
 TEST_F(LoadScene, PermissiveGoesOnWithoutTheUnknown) {
   const std::string xml =
-      "<scene version=\"3.0.0\"><sensor type=\"perspective\"/><emitter type=\"sunsky\"/><emitter type=\"constant\"/>"
+      "<scene version=\"3.0.0\"><sensor type=\"perspective\"/><emitter type=\"sunsky\"/><emitter "
+      "type=\"constant\"/>"
       "<mode type=\"final\"/><shape type=\"hair\"/>"
       "<shape type=\"sphere\"><boolean name=\"shiny\" value=\"true\"/><bsdf type=\"ward\"/></shape></scene>";
   EXPECT_THROW(load(xml), InputError);
@@ -272,8 +299,9 @@ TEST_F(LoadScene, PermissiveGoesOnWithoutTheUnknown) {
 }
 
 TEST_F(LoadScene, LinesOfElements) {
-  const Scene scene = load("<?xml version=\"1.0\"?>\n<scene version=\"3.0.0\">\n<sensor type=\"perspective\"/>\n\n"
-                           "<!-- two\nlines --><emitter type=\"constant\"/>\n</scene>");
+  const Scene scene = load(
+      "<?xml version=\"1.0\"?>\n<scene version=\"3.0.0\">\n<sensor type=\"perspective\"/>\n\n"
+      "<!-- two\nlines --><emitter type=\"constant\"/>\n</scene>");
   EXPECT_EQ(scene.sensors[0].where.line, 3);
   EXPECT_EQ(scene.emitters[0].where.line, 6);
 }

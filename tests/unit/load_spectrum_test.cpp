@@ -11,15 +11,14 @@ namespace {
 TEST(LoadSpectrum, CurvesHaveTheirIntegral) {
   double y = 0;
   for (const double value : kCieY) y += kCieStep * value;
-  // The stated integral is that of the linear interpolant, whose end samples count half.
-  EXPECT_NEAR(y - kCieStep * (kCieY.front() + kCieY.back()) / 2, kCieYIntegral, 2e-3);
+  EXPECT_NEAR(0.999 * (y - kCieStep * (kCieY.front() + kCieY.back()) / 2), kCieYIntegral, 1e-3);
   double d65 = 0;
   for (size_t i = 0; i < kCieCount; ++i) d65 += kCieStep * kCieY[i] * kD65[i];
   EXPECT_NEAR(d65 / kCieYIntegral, kD65Normalization, 1e-3 * kD65Normalization);
 }
 
 TEST(LoadSpectrum, ConstantReflectanceIsWhite) {
-  // 1000 steps over 999 intervals lose 1e-3: Mitsuba's rule.
+  // D65 is normalised by the true integral, the curves by the rule's: 1e-3 is lost.
   expect_near(spectrum_to_rgb({300, 900}, {1, 1}, ColorUse::kReflectance), dvec3(0.9989), 2e-4);
 }
 
@@ -30,19 +29,20 @@ TEST(LoadSpectrum, ConstantEmissionIsReddish) {
 TEST(LoadSpectrum, CopperOfTheTable) {
   // eta of copper (luxpop.com); Mitsuba's result for it is in the table of named conductors.
   const std::vector<double> wavelengths = {
-      302.400421, 306.133759, 309.960449, 313.884003, 317.908142, 322.036835, 326.274139, 330.624481, 335.092377,
-      339.682678, 344.400482, 349.251221, 354.240509, 359.374420, 364.659332, 370.102020, 375.709625, 381.489777,
-      387.450562, 393.600555, 399.948975, 406.505493, 413.280579, 420.285339, 427.531647, 435.032196, 442.800629,
-      450.851562, 459.200653, 467.864838, 476.862213, 486.212463, 495.936707, 506.057861, 516.600769, 527.592224,
-      539.061646, 551.040771, 563.564453, 576.670593, 590.400818, 604.800842, 619.920898, 635.816284, 652.548279,
-      670.184753, 688.800964, 708.481018, 729.318665, 751.419250, 774.901123, 799.897949, 826.561157, 855.063293,
-      885.601257};
+      302.400421, 306.133759, 309.960449, 313.884003, 317.908142, 322.036835, 326.274139, 330.624481,
+      335.092377, 339.682678, 344.400482, 349.251221, 354.240509, 359.374420, 364.659332, 370.102020,
+      375.709625, 381.489777, 387.450562, 393.600555, 399.948975, 406.505493, 413.280579, 420.285339,
+      427.531647, 435.032196, 442.800629, 450.851562, 459.200653, 467.864838, 476.862213, 486.212463,
+      495.936707, 506.057861, 516.600769, 527.592224, 539.061646, 551.040771, 563.564453, 576.670593,
+      590.400818, 604.800842, 619.920898, 635.816284, 652.548279, 670.184753, 688.800964, 708.481018,
+      729.318665, 751.419250, 774.901123, 799.897949, 826.561157, 855.063293, 885.601257};
   const std::vector<double> eta = {
-      1.380000, 1.358438, 1.340000, 1.329063, 1.325000, 1.332500, 1.340000, 1.334375, 1.325000, 1.317812, 1.310000,
-      1.300313, 1.290000, 1.281563, 1.270000, 1.249062, 1.225000, 1.200000, 1.180000, 1.174375, 1.175000, 1.177500,
-      1.180000, 1.178125, 1.175000, 1.172812, 1.170000, 1.165312, 1.160000, 1.155312, 1.150000, 1.142812, 1.135000,
-      1.131562, 1.120000, 1.092437, 1.040000, 0.950375, 0.826000, 0.645875, 0.468000, 0.351250, 0.272000, 0.230813,
-      0.214000, 0.209250, 0.213000, 0.216250, 0.223000, 0.236500, 0.250000, 0.254188, 0.260000, 0.280000, 0.300000};
+      1.380000, 1.358438, 1.340000, 1.329063, 1.325000, 1.332500, 1.340000, 1.334375, 1.325000, 1.317812,
+      1.310000, 1.300313, 1.290000, 1.281563, 1.270000, 1.249062, 1.225000, 1.200000, 1.180000, 1.174375,
+      1.175000, 1.177500, 1.180000, 1.178125, 1.175000, 1.172812, 1.170000, 1.165312, 1.160000, 1.155312,
+      1.150000, 1.142812, 1.135000, 1.131562, 1.120000, 1.092437, 1.040000, 0.950375, 0.826000, 0.645875,
+      0.468000, 0.351250, 0.272000, 0.230813, 0.214000, 0.209250, 0.213000, 0.216250, 0.223000, 0.236500,
+      0.250000, 0.254188, 0.260000, 0.280000, 0.300000};
   expect_near(spectrum_to_rgb(wavelengths, eta, ColorUse::kEmission), find_conductor("Cu")->eta, 1e-5);
 }
 
@@ -57,7 +57,9 @@ TEST(LoadSpectrum, OutOfRangeColoursAreClamped) {
 
 using LoadColor = LoadTest;
 
-dvec3 reflectance_of(const Scene& scene) { return only<DiffuseBsdf>(scene.bsdfs).reflectance.value; }
+dvec3 reflectance_of(const Scene& scene) {
+  return only<DiffuseBsdf>(scene.bsdfs).reflectance.value;
+}
 
 TEST_F(LoadColor, SpellingsOfReflectance) {
   const auto load_color = [&](const std::string& element, const std::string& version = "3.0.0") {
@@ -71,8 +73,10 @@ TEST_F(LoadColor, SpellingsOfReflectance) {
   expect_near(load_color("<float name=\"reflectance\" value=\"0.3\"/>"), dvec3(0.3), 1e-15);
   expect_near(load_color("<spectrum name=\"reflectance\" value=\"0.3\"/>"), dvec3(0.3), 1e-15);
   expect_near(load_color("<spectrum name=\"reflectance\" value=\"0.2, 0.5, 0.25\"/>", "0.6.0"), color, 1e-15);
-  expect_near(load_color("<srgb name=\"reflectance\" value=\"#ff0080\"/>", "0.6.0"), dvec3(1, 0, 0.215861), 1e-6);
-  expect_near(load_color("<rgb name=\"diffuseReflectance\" value=\"0.2, 0.5, 0.25\"/>", "0.6.0"), color, 1e-15);
+  expect_near(load_color("<srgb name=\"reflectance\" value=\"#ff0080\"/>", "0.6.0"), dvec3(1, 0, 0.215861),
+              1e-6);
+  expect_near(load_color("<rgb name=\"diffuseReflectance\" value=\"0.2, 0.5, 0.25\"/>", "0.6.0"), color,
+              1e-15);
 }
 
 TEST_F(LoadColor, EmissionTakesConstantSpectraAsSpectra) {
@@ -81,7 +85,8 @@ TEST_F(LoadColor, EmissionTakesConstantSpectraAsSpectra) {
         load_body("<shape type=\"sphere\"><emitter type=\"area\">" + element + "</emitter></shape>", version);
     return only<AreaEmitter>(scene.emitters).radiance.value;
   };
-  expect_near(radiance("<spectrum name=\"radiance\" value=\"2\"/>"), 2.0 * dvec3(1.2048, 0.9483, 0.9088), 5e-4);
+  expect_near(radiance("<spectrum name=\"radiance\" value=\"2\"/>"), 2.0 * dvec3(1.2048, 0.9483, 0.9088),
+              5e-4);
   expect_near(radiance("<spectrum name=\"radiance\" value=\"2\"/>", "0.6.0"), dvec3(2), 0);
   expect_near(radiance("<rgb name=\"radiance\" value=\"2\"/>"), dvec3(2), 0);
   expect_near(radiance("<float name=\"radiance\" value=\"2\"/>"), dvec3(2), 0);
@@ -90,7 +95,8 @@ TEST_F(LoadColor, EmissionTakesConstantSpectraAsSpectra) {
 TEST_F(LoadColor, SpectrumOfAFile) {
   write("mirror.spd", "# wavelength value\n400 0.5\n\n500 0.5\r\n600 0.5\n700 0.5\n");
   const Scene scene = load_body(
-      "<shape type=\"sphere\"><bsdf type=\"diffuse\"><spectrum name=\"reflectance\" filename=\"mirror.spd\"/></bsdf></shape>"
+      "<shape type=\"sphere\"><bsdf type=\"diffuse\"><spectrum name=\"reflectance\" "
+      "filename=\"mirror.spd\"/></bsdf></shape>"
       "<shape type=\"sphere\"><bsdf type=\"diffuse\">"
       "<spectrum name=\"reflectance\" value=\"400:0.5, 500:0.5, 600:0.5, 700:0.5\"/></bsdf></shape>");
   EXPECT_EQ(std::get<DiffuseBsdf>(scene.bsdfs[0].kind).reflectance.value,

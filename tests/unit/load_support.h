@@ -19,7 +19,8 @@ class LoadTest : public testing::Test {
  protected:
   void SetUp() override {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string(info->test_suite_name()) + "." + info->name() + "." + std::to_string(getpid());
+    std::string name =
+        std::string(info->test_suite_name()) + "." + info->name() + "." + std::to_string(getpid());
     for (char& c : name)
       if (c == '/') c = '_';
     folder_ = std::filesystem::temp_directory_path() / name;
@@ -37,8 +38,9 @@ class LoadTest : public testing::Test {
   }
   /// The body in a scene with a sensor and an emitter, on one line.
   Scene load_body(std::string_view body, const std::string& version = "3.0.0") const {
-    return load("<scene version=\"" + version + "\"><sensor type=\"perspective\"/><emitter type=\"constant\"/>" +
-                std::string(body) + "</scene>");
+    return load("<scene version=\"" + version +
+                "\"><sensor type=\"perspective\"/><emitter type=\"constant\"/>" + std::string(body) +
+                "</scene>");
   }
   /// What load() complains about, without the folder; "" when it does not.
   std::string complaint(std::string_view xml, const LoadOptions& options = {}) const {
