@@ -13,9 +13,16 @@ namespace tachylite {
 /// expected". main() prints it and exits with 2.
 class InputError : public std::runtime_error {
  public:
-  explicit InputError(const std::string& message) : std::runtime_error(message) {}
-  InputError(const FileLocation& where, const std::string& message)
-      : std::runtime_error(where.str() + ": " + message) {}
+  explicit InputError(const std::string& message) : std::runtime_error(one_line(message)) {}
+  InputError(const FileLocation& where, const std::string& message) : InputError(where.str() + ": " + message) {}
+
+ private:
+  /// What is quoted from a file may hold line ends and escape sequences.
+  static std::string one_line(std::string message) {
+    for (char& c : message)
+      if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+    return message;
+  }
 };
 
 /// A render, a Vulkan call or writing a file failed; the message names the call. main() exits with 1.

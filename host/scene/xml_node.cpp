@@ -166,9 +166,14 @@ class Reader {
   }
 
   void read_element(const pugi::xml_node& element, const Source& source, XmlNode& parent, int depth) {
+    if (element.type() == pugi::node_pcdata || element.type() == pugi::node_cdata) {
+      std::string_view text = element.value();
+      const size_t blank = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+      text.remove_prefix(blank);
+      throw InputError(source.at(element.offset_debug() + static_cast<ptrdiff_t>(blank)),
+                       fmt::format("stray text \"{:.30}\"", text));
+    }
     const FileLocation where = source.at(element.offset_debug());
-    if (element.type() == pugi::node_pcdata || element.type() == pugi::node_cdata)
-      throw InputError(where, fmt::format("stray text \"{:.30}\"", element.value()));
     if (element.type() != pugi::node_element) return;
     if (depth > kMaxDepth)
       throw InputError(where, fmt::format("elements are nested more than {} deep", kMaxDepth));
