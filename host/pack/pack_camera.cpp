@@ -34,6 +34,7 @@ void pack_camera(const Sensor& sensor, const glm::dvec3& centre, gpu::RenderPara
   params.height = static_cast<uint32_t>(film.crop_height);
   params.crop_x = static_cast<uint32_t>(film.crop_x);
   params.crop_y = static_cast<uint32_t>(film.crop_y);
+  params.film_width = static_cast<uint32_t>(film.width);
   params.tiles_x = (params.width + gpu::kTileSize - 1) / gpu::kTileSize;
   params.tile_count = params.tiles_x * ((params.height + gpu::kTileSize - 1) / gpu::kTileSize);
   params.filter_radius = static_cast<float>(film.filter_radius);

@@ -44,22 +44,25 @@ uint64_t texel_bytes(VkFormat format) {
 
 /// Throws where the device cannot see the whole buffer through such a binding.
 void check_range(const Device& device, const Binding& binding, const Buffer& buffer) {
-  const DeviceInfo& info = device.info();
-  uint64_t most = info.max_storage_buffer_range;
-  const char* limit = "maxStorageBufferRange";
-  if (binding.kind == BindingKind::kUniform) {
-    most = info.max_uniform_buffer_range;
-    limit = "maxUniformBufferRange";
-  } else if (binding.kind == BindingKind::kTexel) {
-    most = info.max_texel_buffer_elements * texel_bytes(binding.format);
-    limit = "maxTexelBufferElements";
-  }
+  const uint64_t most = largest_buffer(device.info(), binding);
   if (buffer.size() > most)
-    throw RenderError(fmt::format("vkUpdateDescriptorSets: binding {} needs {} bytes, but {} of {} allows {}",
-                                  binding.number, buffer.size(), limit, info.name, most));
+    throw RenderError(fmt::format("vkUpdateDescriptorSets: binding {} needs {} bytes, but {} allows {}", binding.number,
+                                  buffer.size(), device.info().name, most));
 }
 
 }  // namespace
+
+uint64_t largest_buffer(const DeviceInfo& info, const Binding& binding) {
+  switch (binding.kind) {
+    case BindingKind::kUniform:
+      return info.max_uniform_buffer_range;
+    case BindingKind::kTexel:
+      return info.max_texel_buffer_elements * texel_bytes(binding.format);
+    case BindingKind::kStorage:
+      return info.max_storage_buffer_range;
+  }
+  return 0;
+}
 
 BindingTable::BindingTable(Device& device, std::span<const Binding> bindings, uint32_t push_constant_bytes)
     : device_(device), zeros_(device, kZeroBytes), push_constant_bytes_(push_constant_bytes) {

@@ -17,6 +17,9 @@ struct Binding {
   VkFormat format = VK_FORMAT_UNDEFINED;  // kTexel only
 };
 
+/// The most bytes that a buffer behind such a binding may have on a device.
+uint64_t largest_buffer(const DeviceInfo& info, const Binding& binding);
+
 /// One descriptor set (set 0) that all kernels of a renderer share. Buffers must outlive it. Every binding is
 /// written: lavapipe crashes on sets with holes. Throws RenderError, with the bytes, for a buffer that is
 /// larger than the device's limit for that kind of binding.

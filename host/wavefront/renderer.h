@@ -16,6 +16,10 @@ namespace tachylite {
 
 enum class SamplerKind { kSobol, kIndependent };
 
+/// How kernels are put together. kStages: a kernel a stage, with queues and a tree. kFused: one kernel follows whole
+/// paths through geometry that is compiled into it; tiny scenes only. kAuto: kFused where the scene fits.
+enum class KernelStructure { kAuto, kStages, kFused };
+
 struct RenderProgress {
   uint64_t samples = 0, target_samples = 0;  // per pixel
   double fraction = 0;                       // of all paths, finer than samples
@@ -28,7 +32,8 @@ struct RenderOptions {
   uint64_t first_sample = 0;    // multiple of kBlockSamples
   uint32_t seed = 0;
   SamplerKind sampler = SamplerKind::kSobol;
-  uint32_t max_paths = 262144;  // in flight
+  uint32_t max_paths = 262144;  // in flight, in stages
+  KernelStructure structure = KernelStructure::kAuto;
   double time_limit = 0;        // seconds of rendering; 0: none. At least one block is rendered.
   double error_limit = 0;       // FilmBuffer::relative_error() to reach; 0: none
   bool timing = false;          // timestamp queries around each kernel
@@ -57,7 +62,8 @@ struct MemoryPlan {
 /// The wavefront path tracer: pipelines for the scene's FeatureSet, its buffers, and the loop of kernels.
 class Renderer {
  public:
-  /// Uploads and builds the pipelines. Throws RenderError naming needed and available bytes when it cannot fit.
+  /// Uploads and builds the pipelines. Throws RenderError naming needed and available bytes when it cannot fit, and
+  /// InputError where kFused is asked for and the scene does not fit.
   Renderer(vulkan::Device& device, const PackedScene& scene, const RenderOptions& options);
   ~Renderer();
 

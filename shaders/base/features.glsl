@@ -37,4 +37,11 @@ bool has_texture(uint feature) { return (texture_kinds & feature) != 0u; }
 bool has_textured_input(uint inputs) { return (textured_inputs & inputs) != 0u; }
 bool has_material(uint flag) { return (material_flags & flag) != 0u; }
 
+// Whether rays that escape find light, and whether rays that hit something may.
+bool has_escaped_light() { return has_light(kLightConstant) || has_light(kLightEnvironment); }
+bool has_area_light() {
+  return has_light(kLightTriangles) || has_light(kLightRectangle) || has_light(kLightSphere) || has_light(kLightDisk) ||
+         has_light(kLightCylinder);
+}
+
 #endif

@@ -30,6 +30,7 @@ TACHYLITE_CONST uint kBindEnvironmentCdf = 18u; // texel RGBA32F, the environmen
 // Media
 TACHYLITE_CONST uint kBindMedia = 19u;         // texel RGBA32F
 TACHYLITE_CONST uint kBindGrids = 20u;         // texel R32F
+TACHYLITE_CONST uint kBindBaked = 30u;         // texel RGBA32F, shared/baked.h
 // Paths
 TACHYLITE_CONST uint kBindPathTexels = 21u;    // texel RGBA32F view of the path state (reads)
 TACHYLITE_CONST uint kBindPaths = 22u;         // storage: path state (writes), shared/path_state.h

@@ -24,9 +24,11 @@ struct RenderParams {
   CameraParams camera;
   uint width, height;       // of the image that is rendered (the crop)
   uint crop_x, crop_y;      // where it begins in the full film
+  uint film_width;          // of the full film: pixels are numbered there, so that a crop has the samples of the whole
   uint tiles_x, tile_count;
   uint capacity;            // paths in flight: stride of the rows of the path state
   uint seed;
+  uint end_sample;          // samples of a pixel from this index on are not rendered
   uint class_count;         // material classes
   uint light_count, light_rows_end;
   float filter_radius, filter_stddev;

@@ -1,10 +1,11 @@
-// Checkerboard: color0 where exactly one of frac(u), frac(v) exceeds 1/2, color1 elsewhere.
+// Checkerboard. As a colour: color0 where frac(u) and frac(v) lie on the same side of 1/2, color1 elsewhere; as a
+// scalar the other way round. So Mitsuba 3.7 does it, as its images show.
 #ifndef TACHYLITE_TEXTURE_CHECKERBOARD_GLSL
 #define TACHYLITE_TEXTURE_CHECKERBOARD_GLSL
 
-vec3 checkerboard_color(uvec4 color0, uvec4 color1, vec2 uv) {
+vec3 checkerboard_color(uvec4 color0, uvec4 color1, vec2 uv, bool as_scalar) {
   bvec2 upper = greaterThan(uv - floor(uv), vec2(0.5));
-  return uintBitsToFloat(upper.x != upper.y ? color0.xyz : color1.xyz);
+  return uintBitsToFloat((upper.x == upper.y) != as_scalar ? color0.xyz : color1.xyz);
 }
 
 #endif

@@ -30,8 +30,8 @@ TextureTransform load_texture_transform(uint row) {
 
 vec2 transform_uv(TextureTransform m, vec2 uv) { return vec2(dot(m.m0, vec3(uv, 1.0)), dot(m.m1, vec3(uv, 1.0))); }
 
-// Linear Rec.709.
-vec3 texture_color(uint row, TexturePoint point) {
+// Linear Rec.709. as_scalar: for a parameter that is a number.
+vec3 texture_value(uint row, TexturePoint point, bool as_scalar) {
   uvec4 row0 = load_texture(row);
   uint kind = row0.x & kTextureKindMask;
   vec3 color = vec3(0.0);
@@ -39,15 +39,16 @@ vec3 texture_color(uint row, TexturePoint point) {
     vec2 uv = transform_uv(load_texture_transform(row), point.uv);
     if (has_texture(kTexturesBitmap) && kind == kTextureBitmap) color = bitmap_color(row0, uv);
     if (has_texture(kTexturesCheckerboard) && kind == kTextureCheckerboard)
-      color = checkerboard_color(load_texture(row + 3u), load_texture(row + 4u), uv);
+      color = checkerboard_color(load_texture(row + 3u), load_texture(row + 4u), uv, as_scalar);
   }
   if (has_texture(kTexturesAttribute) && kind == kTextureAttribute)
     color = attribute_color(row0, uintBitsToFloat(load_texture(row + 3u).x), point.primitive, point.barycentrics);
   return color;
 }
 
+vec3 texture_color(uint row, TexturePoint point) { return texture_value(row, point, false); }
 // A texture asked for a scalar answers with its luminance.
-float texture_scalar(uint row, TexturePoint point) { return luminance(texture_color(row, point)); }
+float texture_scalar(uint row, TexturePoint point) { return luminance(texture_value(row, point, true)); }
 
 // (d scalar / du, d scalar / dv) of a bilinear bitmap, in the uv before to_uv; 0 for all others.
 vec2 texture_scalar_gradient(uint row, TexturePoint point) {
