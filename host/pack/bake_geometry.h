@@ -1,0 +1,25 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "pack/pack_scene.h"
+
+namespace tachylite {
+
+/// A tiny scene's geometry as specialization constants (shared/baked.h).
+struct BakedGeometry {
+  std::map<uint32_t, uint32_t> constants;  // by constant id; floats by their bits
+  std::vector<glm::vec4> rows;             // kBakedRows a primitive
+  uint32_t count = 0;
+};
+
+/// Empty where the scene does not fit: more than kMaxBaked primitives, disks or cylinders, several material classes,
+/// anything that needs uv, tangents or vertex normals, media, or paths so long that they could exceed the iterations
+/// that Mesa 22.3.6 allows one invocation.
+std::optional<BakedGeometry> bake_geometry(const PackedScene& scene);
+
+}  // namespace tachylite

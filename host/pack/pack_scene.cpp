@@ -1,0 +1,167 @@
+#include "pack/pack_scene.h"
+
+#include <algorithm>
+#include <bit>
+
+#include <glm/gtc/matrix_access.hpp>
+
+#include "base/error.h"
+#include "base/timer.h"
+#include "pack/pack_camera.h"
+#include "pack/pack_geometry.h"
+#include "pack/pack_light.h"
+#include "pack/pack_material.h"
+#include "pack/pack_texture.h"
+#include "shared/geometry.h"
+#include "shared/material.h"
+
+namespace tachylite {
+namespace {
+
+using glm::dvec3;
+using glm::uvec4;
+using glm::vec4;
+
+// Rows of positions (xyz, u) and, where some kernel reads them, of normals (xyz, v).
+void put_vertices(const Geometry& geometry, PackedScene& out) {
+  const size_t count = geometry.vertices.size();
+  const bool uv = out.features.vertex_uv && !geometry.uvs.empty();
+  out.positions.resize(count);
+  for (size_t i = 0; i < count; ++i) out.positions[i] = vec4(geometry.vertices[i], uv ? geometry.uvs[i].x : 0.0f);
+  if (!out.features.vertex_normals && !uv) return;
+  out.normals.resize(count);
+  for (size_t i = 0; i < count; ++i)
+    out.normals[i] = vec4(geometry.normals.empty() ? glm::vec3(0) : geometry.normals[i], uv ? geometry.uvs[i].y : 0.0f);
+}
+
+void put_primitives(const Geometry& geometry, PackedScene& out) {
+  out.triangles.resize(geometry.triangles.size());
+  for (size_t i = 0; i < geometry.triangles.size(); ++i)
+    out.triangles[i] = uvec4(geometry.triangles[i], geometry.shape_of_triangle[i] * gpu::kShapeRows);
+  for (size_t i = 0; i < geometry.curved.size(); ++i) {
+    const CurvedPrimitive& curved = geometry.curved[i];
+    const glm::dmat4& m = curved.object_to_world;
+    for (int r = 0; r < 3; ++r) out.curved.push_back(vec4(glm::row(m, r)));
+    const double scale = std::max({glm::length(dvec3(m[0])), glm::length(dvec3(m[1])), glm::length(dvec3(m[2]))});
+    out.curved.push_back(vec4(std::bit_cast<float>(geometry.shape_of_curved[i] * gpu::kShapeRows),
+                              std::bit_cast<float>(curved.kind), static_cast<float>(scale), 0));
+  }
+}
+
+uint32_t medium_word(const Shape& shape) {
+  const auto half = [](MediumIndex medium) { return medium == kNone ? 0xffffu : static_cast<uint32_t>(medium); };
+  return half(shape.interior) | half(shape.exterior) << 16;
+}
+
+// leaf_info names class and emission, so that intersect_closest sorts paths with one load.
+void mark_leaves(const Geometry& geometry, const std::vector<uint32_t>& class_of_shape,
+                 const std::vector<bool>& shape_emits, PackedScene& out) {
+  for (uvec4& info : out.bvh.leaf_info) {
+    const bool curved = (info.z & gpu::kLeafKindMask) != gpu::kLeafTriangles;
+    const uint32_t shape = curved ? geometry.shape_of_curved[info.x - geometry.triangles.size()]
+                                  : geometry.shape_of_triangle[info.x];
+    info.z |= class_of_shape[shape] << gpu::kLeafClassShift;
+    if (shape_emits[shape]) info.z |= gpu::kLeafEmits;
+    // Curved primitives are found by their rows.
+    if (curved) info.x = (info.x - static_cast<uint32_t>(geometry.triangles.size())) * gpu::kCurvedRows;
+  }
+}
+
+void set_path_features(const Scene& scene, FeatureSet& features) {
+  const Integrator& integrator = scene.integrator;
+  features.max_depth = integrator.max_depth < 0 ? 0xffffffffu : static_cast<uint32_t>(integrator.max_depth);
+  if (integrator.kind == Integrator::Kind::kDirect) features.max_depth = std::min(features.max_depth, 2u);
+  features.roulette_depth = static_cast<uint32_t>(std::max(1, integrator.rr_depth));
+  features.hide_emitters = integrator.hide_emitters;
+  features.strategy = static_cast<uint32_t>(integrator.strategy);
+}
+
+}  // namespace
+
+uint64_t PackedScene::host_bytes() const {
+  const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  return bytes(bvh.nodes) + bytes(bvh.leaves) + bytes(bvh.leaf_info) + bytes(triangles) + bytes(positions) +
+         bytes(normals) + bytes(curved) + bytes(attributes) + bytes(shapes) + bytes(materials) + bytes(textures) +
+         bytes(texels8) + bytes(texels16) + bytes(texels32) + bytes(lights) + bytes(light_table) + bytes(environment) +
+         bytes(environment_cdf) + bytes(media) + bytes(grids);
+}
+
+PackedScene pack_scene(const Scene& scene, int sensor_index) {
+  if (sensor_index < 0 || static_cast<size_t>(sensor_index) >= scene.sensors.size())
+    throw InputError(fmt::format("{}: there is no sensor {}; the scene has {}", scene.path, sensor_index,
+                                 scene.sensors.size()));
+  const Sensor& sensor = scene.sensors[static_cast<size_t>(sensor_index)];
+  Timer timer;
+  PackedScene out;
+  FeatureSet& features = out.features;
+
+  // Geometry, textures and materials.
+  Geometry geometry = pack_geometry(scene);
+  out.centre = geometry.centre;
+  PackedTextures textures = pack_textures(scene, geometry);
+  PackedMaterials materials = pack_materials(scene, textures.row_of_texture);
+  features.classes = materials.classes;
+  features.textures = textures.kinds;
+  features.triangles = !geometry.triangles.empty();
+  features.curved = !geometry.curved.empty();
+  features.vertex_normals = !geometry.normals.empty();
+  const bool surface_uv = std::any_of(features.classes.begin(), features.classes.end(), [](const MaterialClass& c) {
+    return (c.flags & (gpu::kMaterialTextured | gpu::kMaterialTangent)) != 0;
+  });
+
+  // The tree; hits name leaves, so lights are packed after it.
+  Timer bvh_timer;
+  const BvhInput input{geometry.vertices, geometry.triangles, geometry.curved, geometry.shape_of_triangle};
+  out.bvh = build_bvh8(input);
+  out.bvh_seconds = bvh_timer.seconds();
+  PackedLights lights = pack_lights(scene, geometry, out.bvh, textures);
+  features.lights = lights.kinds;
+  features.selection = lights.selection;
+  features.light_textures = lights.textures;
+  features.vertex_uv = surface_uv || lights.textures;
+
+  // Shapes.
+  std::vector<uint32_t> class_of_shape(scene.shapes.size());
+  std::vector<bool> shape_emits(scene.shapes.size());
+  for (size_t s = 0; s < scene.shapes.size(); ++s) {
+    const Shape& shape = scene.shapes[s];
+    const ShapeGeometry& range = geometry.shapes[s];
+    const auto bsdf = static_cast<size_t>(shape.bsdf);
+    class_of_shape[s] = materials.class_of_bsdf[bsdf];
+    shape_emits[s] = lights.light_of_shape[s] != gpu::kNoIndex;
+    uint32_t flags = 0;
+    if (range.flip_normals) flags |= gpu::kShapeFlipNormals;
+    if (range.has_uv) flags |= gpu::kShapeHasUv;
+    if (range.has_normals) flags |= gpu::kShapeHasNormals;
+    if (shape.is_medium_boundary) flags |= gpu::kShapeIsBoundary;
+    out.shapes.push_back(uvec4(materials.row_of_bsdf[bsdf], lights.light_of_shape[s], flags, medium_word(shape)));
+    out.shapes.push_back(uvec4(range.first_primitive, range.primitive_count, gpu::kNoIndex, 0));
+  }
+  mark_leaves(geometry, class_of_shape, shape_emits, out);
+  put_vertices(geometry, out);
+  put_primitives(geometry, out);
+
+  out.materials = std::move(materials.rows);
+  out.textures = std::move(textures.rows);
+  out.texels8 = std::move(textures.texels8);
+  out.texels16 = std::move(textures.texels16);
+  out.texels32 = std::move(textures.texels32);
+  out.attributes = std::move(textures.attributes);
+  out.lights = std::move(lights.rows);
+  out.light_table = std::move(lights.table);
+  out.environment = std::move(lights.environment);
+  out.environment_cdf = std::move(lights.environment_cdf);
+
+  // Camera, film and paths.
+  pack_camera(sensor, geometry.centre, out.params);
+  features.camera = static_cast<uint32_t>(sensor.kind);
+  features.filter = static_cast<uint32_t>(sensor.film.filter);
+  set_path_features(scene, features);
+  out.params.class_count = static_cast<uint32_t>(features.classes.size());
+  out.params.light_count = lights.count;
+  out.params.environment_light = lights.environment_row;
+  out.pack_seconds = timer.seconds() - out.bvh_seconds;
+  return out;
+}
+
+}  // namespace tachylite

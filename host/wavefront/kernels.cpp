@@ -1,0 +1,92 @@
+#include "wavefront/kernels.h"
+
+#include <bit>
+
+#include <fmt/format.h>
+
+#include "kernel_spirv.h"
+#include "shared/baked.h"
+#include "shared/material.h"
+
+namespace tachylite {
+namespace {
+
+using vulkan::Kernel;
+using vulkan::SpecializationConstants;
+
+// Names of the leaf types of a class, for its kernel's name.
+std::string class_name(const MaterialClass& c) {
+  static constexpr const char* kNames[] = {"null",       "diffuse",       "roughdiffuse", "conductor",
+                                           "roughconductor", "dielectric", "thindielectric", "roughdielectric",
+                                           "plastic",    "roughplastic",  "principled",   "principledthin",
+                                           "blinnphong", "microfacet"};
+  std::string name;
+  for (uint32_t type = 0; type < std::size(kNames); ++type)
+    if ((c.bsdfs >> type) & 1u) name.append(name.empty() ? "" : "+").append(kNames[type]);
+  if (c.flags & gpu::kMaterialTextured) name += " textured";
+  if (c.flags & gpu::kMaterialHasFrames) name += " bumped";
+  return name;
+}
+
+}  // namespace
+
+Kernels build_kernels(vulkan::Device& device, const vulkan::BindingTable& table, const FeatureSet& features,
+                      const RenderOptions& options, const BakedGeometry* baked) {
+  SpecializationConstants common = features.constants();
+  const uint64_t end = options.first_sample + options.samples;
+  const uint32_t log2_samples = static_cast<uint32_t>(std::bit_width(end - 1));
+  const auto with_sampler = [&](SpecializationConstants constants) {
+    constants[gpu::kFeatureSampler] =
+        options.sampler == SamplerKind::kIndependent ? gpu::kSamplerIndependent : gpu::kSamplerSobol;
+    constants[gpu::kFeatureLog2Samples] = log2_samples;
+    return constants;
+  };
+  common = with_sampler(common);
+
+  Kernels kernels;
+  const auto make = [&](const std::string& name, const char* file, const SpecializationConstants& constants) {
+    kernels.run.push_back(name);
+    return std::make_unique<Kernel>(device, table, name, kernel_spirv(file), constants);
+  };
+  if (baked) {
+    SpecializationConstants constants = with_sampler(features.class_constants(0));
+    constants.insert(baked->constants.begin(), baked->constants.end());
+    const uint32_t rounded = (baked->count + 7) / 8 * 8;
+    const std::string file = fmt::format("follow_paths_{}", rounded <= 32 ? rounded : gpu::kMaxBaked);
+    kernels.follow_paths = make("follow_paths", file.c_str(), constants);
+    kernels.skipped = {"tree", "path state and queues", "intersect_closest", "intersect_shadow", "shade_surface"};
+    return kernels;
+  }
+
+  const auto make_if = [&](bool needed, const char* name) -> Kernels::Pointer {
+    if (needed) return make(name, name, common);
+    kernels.skipped.push_back(name);
+    return nullptr;
+  };
+
+  kernels.init_from_camera = make("init_from_camera", "init_from_camera", common);
+  kernels.prepare_dispatch = make("prepare_dispatch", "prepare_dispatch", common);
+  kernels.intersect_primary = make("intersect_primary", "intersect_primary", common);
+  kernels.intersect_closest = make_if(features.max_depth > 1, "intersect_closest");
+  kernels.shade_emitter = make_if(features.area_lights(), "shade_emitter");
+  kernels.shade_escaped = make_if(features.environment(), "shade_escaped");
+  for (size_t c = 0; c < features.classes.size(); ++c) {
+    const std::string name = "shade_surface<" + class_name(features.classes[c]) + ">";
+    if (features.max_depth > 1)
+      kernels.shade_surface.push_back(make(name, "shade_surface", with_sampler(features.class_constants(c))));
+    else
+      kernels.skipped.push_back(name);
+  }
+  if (features.classes.empty()) kernels.skipped.push_back("shade_surface");
+  const bool shadow = features.selection != gpu::kSelectNone && features.strategy != gpu::kStrategyBsdf &&
+                      !features.classes.empty() && features.max_depth > 1;
+  kernels.intersect_shadow = make_if(shadow, "intersect_shadow");
+  if (features.media == 0) {
+    kernels.skipped.push_back("sample_medium");
+    kernels.skipped.push_back("shade_medium");
+  }
+  kernels.write_film = make("write_film", "write_film", common);
+  return kernels;
+}
+
+}  // namespace tachylite

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pack/bake_geometry.h"
+#include "pack/feature_set.h"
+#include "vulkan/kernel.h"
+#include "wavefront/renderer.h"
+
+namespace tachylite {
+
+/// The pipelines that a scene needs; those it does not need are null.
+struct Kernels {
+  using Pointer = std::unique_ptr<vulkan::Kernel>;
+  Pointer init_from_camera, prepare_dispatch, intersect_primary, intersect_closest, intersect_shadow, shade_escaped,
+      shade_emitter, write_film, follow_paths;
+  std::vector<Pointer> shade_surface;  // one a material class; null for classes that need no shading
+
+  std::vector<std::string> run, skipped;  // stages, for people
+};
+
+/// The stages, or with `baked` the one kernel for whole paths.
+Kernels build_kernels(vulkan::Device& device, const vulkan::BindingTable& table, const FeatureSet& features,
+                      const RenderOptions& options, const BakedGeometry* baked);
+
+}  // namespace tachylite

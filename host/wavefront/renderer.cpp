@@ -1,0 +1,327 @@
+#include "wavefront/renderer.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/timer.h"
+#include "shared/bindings.h"
+#include "shared/counters.h"
+#include "shared/path_state.h"
+#include "wavefront/kernels.h"
+#include "wavefront/scene_buffers.h"
+
+namespace tachylite {
+namespace {
+
+using gpu::kBlockSamples;
+using gpu::WaveParams;
+using vulkan::Buffer;
+
+constexpr uint32_t kTilePixels = gpu::kTileSize * gpu::kTileSize;
+constexpr uint32_t kFusedPaths = 1u << 24;  // of one dispatch that follows whole paths: about a second
+constexpr uint32_t kFusedBlocks = 8;
+constexpr uint32_t kBouncesPerSubmit = 16;  // between two looks at the queue's length
+
+// Paths in flight: whole tiles of whole blocks, no more than the render has.
+uint32_t capacity_for(const gpu::RenderParams& params, const RenderOptions& options) {
+  const uint64_t blocks = (options.samples + kBlockSamples - 1) / kBlockSamples;
+  const uint64_t all = uint64_t{params.tile_count} * kTilePixels * kBlockSamples * blocks;
+  const uint64_t step = kTilePixels * kBlockSamples;
+  const uint64_t wanted = std::min<uint64_t>(std::max<uint64_t>(options.max_paths, step), all);
+  return static_cast<uint32_t>(wanted / step * step);
+}
+
+// A wave: blocks of samples of a range of pixels (tile order) that fit into the path slots together.
+struct WaveSize {
+  uint32_t pixels = 0, blocks = 0;
+};
+WaveSize wave_size(const gpu::RenderParams& params, const RenderOptions& options, uint32_t capacity, bool fused) {
+  const uint32_t all_pixels = params.tile_count * kTilePixels;
+  WaveSize size;
+  if (fused) {
+    // A lane renders all blocks of its pixel: many even out the lengths of paths.
+    const uint64_t blocks = (options.samples + kBlockSamples - 1) / kBlockSamples;
+    size.pixels = std::min(all_pixels, kFusedPaths / kBlockSamples);
+    size.blocks = static_cast<uint32_t>(
+        std::min<uint64_t>({blocks, kFusedBlocks, std::max(1u, kFusedPaths / (size.pixels * kBlockSamples))}));
+    return size;
+  }
+  size.pixels = std::min(all_pixels, capacity / kBlockSamples);
+  size.blocks = std::max(1u, capacity / (size.pixels * kBlockSamples));
+  return size;
+}
+
+std::optional<BakedGeometry> choose_baked(const PackedScene& scene, const RenderOptions& options) {
+  if (options.structure == KernelStructure::kStages) return std::nullopt;
+  std::optional<BakedGeometry> baked = bake_geometry(scene);
+  if (!baked && options.structure == KernelStructure::kFused)
+    throw InputError("the scene does not fit into one kernel: it is too large, or has materials or textures that need stages");
+  return baked;
+}
+
+}  // namespace
+
+uint64_t MemoryPlan::total() const {
+  uint64_t sum = 0;
+  for (const Entry& e : buffers) sum += e.bytes;
+  return sum;
+}
+
+struct Renderer::Impl {
+  vulkan::Device& device;
+  const FeatureSet& features;
+  RenderOptions options;
+  std::optional<BakedGeometry> baked;  // one kernel for whole paths
+  gpu::RenderParams params;
+  uint32_t capacity = 0;
+  WaveSize size;
+  RenderStatistics statistics;
+  std::vector<Buffer> buffers;
+  Buffer* counters = nullptr;
+  Buffer* film_block = nullptr;
+  std::unique_ptr<vulkan::BindingTable> table;
+  Kernels kernels;
+  vulkan::Commands commands;
+
+  Impl(vulkan::Device& d, const PackedScene& scene, const RenderOptions& o);
+  void render_wave(WaveParams wave);
+  void record_bounce(WaveParams& wave);
+  void warm_up();
+  uint64_t last_bounce() const;
+  void take_counters();
+};
+
+Renderer::Impl::Impl(vulkan::Device& d, const PackedScene& scene, const RenderOptions& o)
+    : device(d), features(scene.features), options(o), params(scene.params), commands(d) {
+  baked = choose_baked(scene, options);
+  params.capacity = capacity = capacity_for(params, options);
+  size = wave_size(params, options, capacity, baked.has_value());
+  params.seed = options.seed;
+  params.end_sample = static_cast<uint32_t>(options.first_sample + options.samples);
+
+  Timer upload;
+  std::vector<BufferPlan> plan = 
+      plan_buffers(scene, params, capacity, uint64_t{size.pixels} * size.blocks, baked ? &*baked : nullptr);
+  std::vector<vulkan::Binding> bindings;
+  buffers.reserve(plan.size());
+  for (BufferPlan& p : plan) {
+    const Buffer* made = nullptr;
+    if (p.bytes > 0) {
+      Buffer& buffer = buffers.emplace_back(device, p.bytes, p.domain);
+      if (p.data) buffer.upload(p.data, p.bytes);
+      made = &buffer;
+      if (p.bindings[0].number == gpu::kBindCounters) counters = &buffer;
+      if (p.bindings[0].number == gpu::kBindFilm) film_block = &buffer;
+    }
+    for (vulkan::Binding binding : p.bindings) {
+      binding.buffer = made;
+      bindings.push_back(binding);
+    }
+  }
+  const std::vector<uint32_t> zeros(gpu::kCounterWords, 0);
+  counters->upload(zeros.data(), zeros.size() * sizeof(uint32_t));
+  statistics.upload_seconds = upload.seconds();
+  statistics.device_bytes = device.allocated_bytes();
+
+  Timer compile;
+  table = std::make_unique<vulkan::BindingTable>(device, bindings, sizeof(WaveParams));
+  kernels = build_kernels(device, *table, features, options, baked ? &*baked : nullptr);
+  warm_up();
+  statistics.compile_seconds = compile.seconds();
+  commands.set_timing(options.timing);
+}
+
+// Drivers compile a kernel when it is first dispatched: do that now, with nothing to do.
+void Renderer::Impl::warm_up() {
+  WaveParams wave{};
+  wave.block_count = wave.pixel_count = 0;
+  const auto touch = [&](const Kernels::Pointer& kernel) {
+    if (kernel) commands.dispatch(*kernel, 1, &wave, sizeof(wave));
+  };
+  touch(kernels.init_from_camera);
+  wave.mode = gpu::kPrepareTrace;
+  touch(kernels.prepare_dispatch);
+  touch(kernels.intersect_primary);
+  touch(kernels.intersect_closest);
+  touch(kernels.intersect_shadow);
+  touch(kernels.shade_emitter);
+  touch(kernels.shade_escaped);
+  for (const Kernels::Pointer& kernel : kernels.shade_surface) touch(kernel);
+  touch(kernels.write_film);
+  touch(kernels.follow_paths);
+  commands.submit_and_wait();
+}
+
+// Number of bounces (rays of a path) that can still contribute.
+uint64_t Renderer::Impl::last_bounce() const {
+  const bool lights_can_be_hit = features.area_lights() || features.environment();
+  if (features.max_depth == std::numeric_limits<uint32_t>::max()) return features.max_depth;
+  return lights_can_be_hit ? features.max_depth : std::max(features.max_depth, 1u) - 1;
+}
+
+void Renderer::Impl::record_bounce(WaveParams& wave) {
+  const auto queue_dispatch = [&](const Kernels::Pointer& kernel, uint32_t dispatch) {
+    if (kernel)
+      commands.dispatch_indirect(*kernel, *counters, sizeof(uint32_t) * (gpu::kCounterArguments + 4 * dispatch),
+                                 &wave, sizeof(wave));
+  };
+  const auto prepare = [&](uint32_t mode) {
+    wave.mode = mode;
+    commands.dispatch(*kernels.prepare_dispatch, 1, &wave, sizeof(wave));
+  };
+  queue_dispatch(wave.bounce == 0 ? kernels.intersect_primary : kernels.intersect_closest, gpu::kDispatchClosest);
+  prepare(gpu::kPrepareShade);
+  queue_dispatch(kernels.shade_escaped, gpu::kDispatchQueue + gpu::kQueueEscaped);
+  queue_dispatch(kernels.shade_emitter, gpu::kDispatchQueue + gpu::kQueueEmitter);
+  for (uint32_t c = 0; c < kernels.shade_surface.size(); ++c)
+    queue_dispatch(kernels.shade_surface[c], gpu::kDispatchQueue + gpu::kQueueSurface + c);
+  ++wave.bounce;
+  wave.ray_queue = 1 - wave.ray_queue;
+  prepare(gpu::kPrepareTrace);
+  queue_dispatch(kernels.intersect_shadow, gpu::kDispatchShadow);
+}
+
+void Renderer::Impl::render_wave(WaveParams wave) {
+  if (baked) {
+    commands.dispatch(*kernels.follow_paths, (wave.pixel_count + gpu::kWorkgroupSize - 1) / gpu::kWorkgroupSize, &wave,
+                      sizeof(wave));
+    commands.submit_and_wait();
+    take_counters();
+    return;
+  }
+  const uint32_t paths = wave.pixel_count * wave.block_count * kBlockSamples;
+  const uint32_t groups = (paths + gpu::kWorkgroupSize - 1) / gpu::kWorkgroupSize;
+  commands.fill(*counters, 0, 0, sizeof(uint32_t) * gpu::kCounterClosestTotal);
+  commands.dispatch(*kernels.init_from_camera, groups, &wave, sizeof(wave));
+  wave.bounce = wave.ray_queue = 0;
+  wave.mode = gpu::kPrepareTrace;
+  commands.dispatch(*kernels.prepare_dispatch, 1, &wave, sizeof(wave));
+  const uint64_t end = last_bounce();
+  while (wave.bounce < end) {
+    const uint64_t until = std::min<uint64_t>(end, wave.bounce + kBouncesPerSubmit);
+    while (wave.bounce < until) record_bounce(wave);
+    if (wave.bounce >= end) break;
+    commands.submit_and_wait();
+    const auto* words = static_cast<const uint32_t*>(counters->mapped());
+    if (words[gpu::kCounterQueue + wave.ray_queue] == 0) break;
+  }
+  const uint32_t pixels = wave.pixel_count * wave.block_count;
+  commands.dispatch(*kernels.write_film, (pixels + gpu::kWorkgroupSize - 1) / gpu::kWorkgroupSize, &wave,
+                    sizeof(wave));
+  commands.submit_and_wait();
+  take_counters();
+}
+
+void Renderer::Impl::take_counters() {
+  auto* words = static_cast<uint32_t*>(counters->mapped());
+  statistics.closest_rays += words[gpu::kCounterClosestTotal];
+  statistics.shadow_rays += words[gpu::kCounterShadowTotal];
+  statistics.nonfinite += words[gpu::kCounterNonfinite];
+  statistics.overflow += words[gpu::kCounterOverflow];
+  for (uint32_t w = gpu::kCounterClosestTotal; w <= gpu::kCounterOverflow; ++w) words[w] = 0;
+}
+
+Renderer::Renderer(vulkan::Device& device, const PackedScene& scene, const RenderOptions& options) {
+  if (options.first_sample % kBlockSamples != 0)
+    throw InputError(fmt::format("--first-sample must be a multiple of {}", kBlockSamples));
+  if (options.samples == 0 || options.first_sample + options.samples > (uint64_t{1} << 24))
+    throw InputError(fmt::format("samples must lie in 1..{} together with the first sample", 1 << 24));
+  const MemoryPlan plan = plan_memory(device.info(), scene, options);
+  for (const MemoryPlan::Entry& e : plan.buffers)
+    if (e.bytes > e.limit)
+      throw RenderError(fmt::format("{} need {} bytes, but a buffer on {} holds at most {}", e.name, e.bytes,
+                                    device.info().name, e.limit));
+  if (plan.total() > device.info().device_memory)
+    throw RenderError(fmt::format("the render needs {} bytes of device memory, but {} has {}", plan.total(),
+                                  device.info().name, device.info().device_memory));
+  impl_ = std::make_unique<Impl>(device, scene, options);
+}
+
+Renderer::~Renderer() = default;
+
+FilmBuffer Renderer::render() {
+  Impl& r = *impl_;
+  const gpu::RenderParams& params = r.params;
+  const WaveSize size = r.size;
+  const uint32_t all_pixels = params.tile_count * kTilePixels;
+  const uint64_t first_block = r.options.first_sample / kBlockSamples;
+  const uint64_t end_sample = r.options.first_sample + r.options.samples;
+  const uint64_t end_block = (end_sample + kBlockSamples - 1) / kBlockSamples;
+
+  FilmBuffer film(static_cast<int>(params.width), static_cast<int>(params.height));
+  std::vector<glm::vec4> sums(size_t{all_pixels} * size.blocks);  // of the pass, block by block, tile order
+  Timer timer;
+  bool stop = false, interrupted = false;
+  for (uint64_t block = first_block; block < end_block && !stop && !interrupted;) {
+    // One pass: a few blocks of samples for all pixels.
+    WaveParams wave{};
+    wave.first_block = static_cast<uint32_t>(block);
+    wave.block_count = static_cast<uint32_t>(std::min<uint64_t>(size.blocks, end_block - block));
+    for (uint32_t pixel = 0; pixel < all_pixels && !stop; pixel += size.pixels) {
+      wave.first_pixel = pixel;
+      wave.pixel_count = std::min(size.pixels, all_pixels - pixel);
+      r.render_wave(wave);
+      const auto* block_sums = static_cast<const glm::vec4*>(r.film_block->mapped());
+      for (uint32_t b = 0; b < wave.block_count; ++b)
+        std::copy_n(block_sums + size_t{b} * wave.pixel_count, wave.pixel_count,
+                    sums.begin() + static_cast<ptrdiff_t>(size_t{b} * all_pixels + pixel));
+      r.statistics.paths += uint64_t{wave.pixel_count} * wave.block_count * kBlockSamples;
+
+      RenderProgress progress;
+      const double pass = static_cast<double>(pixel + wave.pixel_count) / all_pixels;
+      progress.samples = film.samples();
+      progress.target_samples = r.options.samples;
+      progress.seconds = timer.seconds();
+      progress.fraction = (static_cast<double>(block - first_block) + pass * wave.block_count) /
+                          static_cast<double>(end_block - first_block);
+      progress.mpaths_per_s = static_cast<double>(r.statistics.paths) * 1e-6 / progress.seconds;
+      interrupted = interrupted || (r.options.progress && !r.options.progress(progress));
+      stop = interrupted && pixel + size.pixels < all_pixels;
+    }
+    if (stop) break;
+
+    // Add the pass to the film, in double.
+    for (uint32_t b = 0; b < wave.block_count; ++b) {
+      const uint64_t n = std::min<uint64_t>(kBlockSamples, end_sample - (block + b) * kBlockSamples);
+      parallel_for(0, params.height, 16, [&](size_t first, size_t last) {
+        for (size_t y = first; y < last; ++y)
+          for (size_t x = 0; x < params.width; ++x) {
+            const size_t tile = y / gpu::kTileSize * params.tiles_x + x / gpu::kTileSize;
+            const size_t inner = y % gpu::kTileSize * gpu::kTileSize + x % gpu::kTileSize;
+            const glm::vec4& sum = sums[size_t{b} * all_pixels + tile * kTilePixels + inner];
+            film.add_block(y * params.width + x, glm::dvec3(sum), n);
+          }
+      });
+      film.finish_block(n);
+    }
+    block += wave.block_count;
+    if (r.options.time_limit > 0 && timer.seconds() >= r.options.time_limit) stop = true;
+    if (r.options.error_limit > 0 && film.has_variance() && film.relative_error() <= r.options.error_limit) stop = true;
+  }
+  r.statistics.render_seconds = timer.seconds();
+  r.statistics.kernels = r.commands.kernel_times();
+  return film;
+}
+
+const RenderStatistics& Renderer::statistics() const { return impl_->statistics; }
+std::vector<std::string> Renderer::stages_run() const { return impl_->kernels.run; }
+std::vector<std::string> Renderer::stages_skipped() const { return impl_->kernels.skipped; }
+
+MemoryPlan Renderer::plan_memory(const vulkan::DeviceInfo& device, const PackedScene& scene,
+                                 const RenderOptions& options) {
+  MemoryPlan plan;
+  const std::optional<BakedGeometry> baked = choose_baked(scene, options);
+  const uint32_t capacity = capacity_for(scene.params, options);
+  const WaveSize size = wave_size(scene.params, options, capacity, baked.has_value());
+  for (const BufferPlan& p : plan_buffers(scene, scene.params, capacity, uint64_t{size.pixels} * size.blocks,
+                                          baked ? &*baked : nullptr)) {
+    uint64_t limit = std::numeric_limits<uint64_t>::max();
+    for (const vulkan::Binding& b : p.bindings) limit = std::min(limit, vulkan::largest_buffer(device, b));
+    if (p.bytes > 0) plan.buffers.push_back({p.name, p.bytes, limit});
+  }
+  return plan;
+}
+
+}  // namespace tachylite

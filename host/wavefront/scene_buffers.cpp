@@ -1,0 +1,73 @@
+#include "wavefront/scene_buffers.h"
+
+#include "shared/bindings.h"
+#include "shared/counters.h"
+#include "shared/path_state.h"
+
+namespace tachylite {
+namespace {
+
+using vulkan::Binding;
+using vulkan::BindingKind;
+
+Binding texel(uint32_t number, VkFormat format) { return {number, BindingKind::kTexel, nullptr, format}; }
+Binding storage(uint32_t number) { return {number, BindingKind::kStorage, nullptr, VK_FORMAT_UNDEFINED}; }
+
+template <class T>
+BufferPlan scene_buffer(const char* name, uint32_t binding, VkFormat format, const std::vector<T>& data) {
+  return {name, {texel(binding, format)}, data.data(), data.size() * sizeof(T)};
+}
+
+}  // namespace
+
+std::vector<BufferPlan> plan_buffers(const PackedScene& s, const gpu::RenderParams& params, uint32_t capacity,
+                                     uint64_t film_rows, const BakedGeometry* baked) {
+  constexpr VkFormat kUint4 = VK_FORMAT_R32G32B32A32_UINT, kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT;
+  const bool media = s.features.media != 0, lit = s.features.selection != gpu::kSelectNone;
+  // What only the stages need.
+  const uint64_t slots = baked ? 0 : capacity;
+  const uint64_t path_bytes = slots * sizeof(glm::vec4) * (media ? gpu::kPathRowsMedia : gpu::kPathRowsBase);
+  const uint64_t queue_bytes = slots * sizeof(uint32_t) * (gpu::kQueueSurface + s.features.classes.size());
+  const uint64_t shadow_bytes = lit ? slots * sizeof(glm::vec4) * gpu::kShadowRows : 0;
+  static const std::vector<glm::uvec4> no_rows_u;
+  static const std::vector<glm::vec4> no_rows_f;
+  const auto staged_u = [&](const std::vector<glm::uvec4>& rows) -> const auto& { return baked ? no_rows_u : rows; };
+  const auto staged_f = [&](const std::vector<glm::vec4>& rows) -> const auto& { return baked ? no_rows_f : rows; };
+
+  return {
+      {"parameters", {{gpu::kBindParams, BindingKind::kUniform}}, &params, sizeof(params)},
+      scene_buffer("tree nodes", gpu::kBindBvhNodes, kUint4, staged_u(s.bvh.nodes)),
+      scene_buffer("tree leaves", gpu::kBindBvhLeaves, kFloat4, staged_f(s.bvh.leaves)),
+      scene_buffer("leaf records", gpu::kBindLeafInfo, kUint4, staged_u(s.bvh.leaf_info)),
+      scene_buffer("triangles", gpu::kBindTriangles, kUint4, staged_u(s.triangles)),
+      scene_buffer("positions", gpu::kBindPositions, kFloat4, staged_f(s.positions)),
+      scene_buffer("normals", gpu::kBindNormals, kFloat4, s.normals),
+      scene_buffer("curved shapes", gpu::kBindCurved, kFloat4, staged_f(s.curved)),
+      scene_buffer("shapes", gpu::kBindShapes, kUint4, staged_u(s.shapes)),
+      scene_buffer("baked primitives", gpu::kBindBaked, kFloat4, baked ? baked->rows : no_rows_f),
+      scene_buffer("mesh attributes", gpu::kBindAttributes, kFloat4, s.attributes),
+      scene_buffer("materials", gpu::kBindMaterials, kUint4, s.materials),
+      scene_buffer("textures", gpu::kBindTextures, kUint4, s.textures),
+      scene_buffer("texels, 8 bit", gpu::kBindTexels8, VK_FORMAT_R8G8B8A8_UNORM, s.texels8),
+      scene_buffer("texels, half", gpu::kBindTexels16, VK_FORMAT_R16G16B16A16_SFLOAT, s.texels16),
+      scene_buffer("texels, float", gpu::kBindTexels32, kFloat4, s.texels32),
+      scene_buffer("lights", gpu::kBindLights, kFloat4, s.lights),
+      scene_buffer("light table", gpu::kBindLightTable, kUint4, s.light_table),
+      scene_buffer("environment", gpu::kBindEnvironment, kFloat4, s.environment),
+      scene_buffer("environment table", gpu::kBindEnvironmentCdf, kFloat4, s.environment_cdf),
+      scene_buffer("media", gpu::kBindMedia, kFloat4, s.media),
+      scene_buffer("grids", gpu::kBindGrids, VK_FORMAT_R32_SFLOAT, s.grids),
+      {"path state", {texel(gpu::kBindPathTexels, kFloat4), storage(gpu::kBindPaths)}, nullptr, path_bytes},
+      {"queues",
+       {texel(gpu::kBindQueueTexels, VK_FORMAT_R32_UINT), storage(gpu::kBindQueues)},
+       nullptr,
+       queue_bytes},
+      {"shadow rays", {texel(gpu::kBindShadowTexels, kFloat4), storage(gpu::kBindShadow)}, nullptr, shadow_bytes},
+      {"counters", {storage(gpu::kBindCounters)}, nullptr, gpu::kCounterWords * sizeof(uint32_t),
+       vulkan::Domain::kHost},
+      {"film block", {storage(gpu::kBindFilm)}, nullptr, film_rows * sizeof(glm::vec4),
+       vulkan::Domain::kHost},
+  };
+}
+
+}  // namespace tachylite

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "pack/bake_geometry.h"
+#include "pack/pack_scene.h"
+#include "vulkan/kernel.h"
+
+namespace tachylite {
+
+/// One buffer of the scene or of the paths: what it is called, where it is bound, how large it is.
+struct BufferPlan {
+  const char* name;
+  std::vector<vulkan::Binding> bindings;  // without the buffer; one buffer may have a texel and a storage binding
+  const void* data = nullptr;             // uploaded when the buffer is made; null: left as it is
+  uint64_t bytes = 0;                     // 0: the scene does not need it
+  vulkan::Domain domain = vulkan::Domain::kDevice;
+};
+
+/// The buffers that a scene needs, each once, before anything is allocated. `capacity`: paths in flight; `film_rows`:
+/// pixels times blocks of a wave. With `baked` (one kernel for whole paths) there is no tree, no path state, no queue.
+std::vector<BufferPlan> plan_buffers(const PackedScene& scene, const gpu::RenderParams& params, uint32_t capacity,
+                                     uint64_t film_rows, const BakedGeometry* baked);
+
+}  // namespace tachylite

@@ -1,0 +1,96 @@
+// Path state and queues as kernels use them: reads through texel buffers, writes through storage buffers, appends
+// aggregated over the subgroup (one atomic an append).
+#ifndef TACHYLITE_BASE_QUEUES_GLSL
+#define TACHYLITE_BASE_QUEUES_GLSL
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "base/math.glsl"
+#include "shared/bindings.h"
+#include "shared/bvh.h"
+#include "shared/counters.h"
+#include "shared/path_state.h"
+#include "shared/render_params.h"
+
+layout(set = 0, binding = kBindParams) uniform RenderParamsBlock { RenderParams params; };
+layout(set = 0, binding = kBindPathTexels) uniform samplerBuffer path_texels;
+layout(set = 0, binding = kBindPaths) writeonly restrict buffer Paths { vec4 path_rows[]; };
+layout(set = 0, binding = kBindQueueTexels) uniform usamplerBuffer queue_texels;
+layout(set = 0, binding = kBindQueues) writeonly restrict buffer Queues { uint queue_entries[]; };
+layout(set = 0, binding = kBindShadowTexels) uniform samplerBuffer shadow_texels;
+layout(set = 0, binding = kBindShadow) writeonly restrict buffer Shadow { vec4 shadow_rows[]; };
+layout(set = 0, binding = kBindCounters) restrict buffer Counters { uint counters[]; };
+
+layout(push_constant) uniform Wave { WaveParams wave; };
+
+vec4 load_path(uint row, uint slot) { return texelFetch(path_texels, int(row * params.capacity + slot)); }
+void store_path(uint row, uint slot, vec4 value) { path_rows[row * params.capacity + slot] = value; }
+
+uint load_queue(uint queue, uint i) { return texelFetch(queue_texels, int(queue * params.capacity + i)).x; }
+uint queue_length(uint queue) { return counters[kCounterQueue + queue]; }
+
+vec4 load_shadow(uint row, uint i) { return texelFetch(shadow_texels, int(row * params.capacity + i)); }
+
+// Reserves a place for each lane with `wanted`; meaningless for the others. The places of a subgroup are in order
+// of its lanes, so that neighbouring paths stay neighbours.
+uint append(uint counter, bool wanted) {
+  uvec4 ballot = subgroupBallot(wanted);
+  uint count = subgroupBallotBitCount(ballot);
+  uint base = 0u;
+  if (subgroupElect() && count > 0u) base = atomicAdd(counters[counter], count);
+  return subgroupBroadcastFirst(base) + subgroupBallotExclusiveBitCount(ballot);
+}
+
+void append_to_queue(uint queue, bool wanted, uint slot) {
+  uint place = append(kCounterQueue + queue, wanted);
+  if (wanted) queue_entries[queue * params.capacity + place] = slot;
+}
+
+void append_shadow_ray(bool wanted, vec3 o, uint leaving, vec3 d, uint target, vec3 contribution, uint slot) {
+  uint place = append(kCounterShadow, wanted);
+  if (wanted) {
+    shadow_rows[place] = vec4(o, uintBitsToFloat(leaving));
+    shadow_rows[params.capacity + place] = vec4(d, uintBitsToFloat(target));
+    shadow_rows[2u * params.capacity + place] = vec4(contribution, uintBitsToFloat(slot));
+  }
+}
+
+// Adds to the radiance of a path; what is not finite is dropped and counted. Only one lane at a time owns a path.
+void add_radiance(uint slot, vec3 value) {
+  if (is_finite(value)) {
+    vec4 radiance = load_path(kPathRadiance, slot);
+    store_path(kPathRadiance, slot, vec4(radiance.xyz + value, radiance.w));
+  } else {
+    atomicAdd(counters[kCounterNonfinite], 1u);
+  }
+}
+
+// Adds counts of a lane to those of the wave.
+void count_rays(uint closest, uint shadow, uint nonfinite) {
+  uint closest_sum = subgroupAdd(closest), shadow_sum = subgroupAdd(shadow), nonfinite_sum = subgroupAdd(nonfinite);
+  if (subgroupElect()) {
+    atomicAdd(counters[kCounterClosestTotal], closest_sum);
+    atomicAdd(counters[kCounterShadowTotal], shadow_sum);
+    if (nonfinite_sum > 0u) atomicAdd(counters[kCounterNonfinite], nonfinite_sum);
+  }
+}
+
+// Pixel of the image for a pixel in tile order; false outside.
+bool pixel_of(uint tile_pixel, out uvec2 pixel) {
+  uint tile = tile_pixel / (kTileSize * kTileSize), inner = tile_pixel % (kTileSize * kTileSize);
+  pixel = uvec2(tile % params.tiles_x, tile / params.tiles_x) * kTileSize +
+          uvec2(inner % kTileSize, inner / kTileSize);
+  return pixel.x < params.width && pixel.y < params.height;
+}
+
+// Number of a pixel of the image in the full film: what its samples depend on.
+uint film_pixel(uvec2 pixel) { return (pixel.y + params.crop_y) * params.film_width + pixel.x + params.crop_x; }
+
+// Pixel (in tile order) and sample index of a path slot.
+uint slot_tile_pixel(uint slot) { return wave.first_pixel + (slot / kBlockSamples) % wave.pixel_count; }
+uint slot_sample(uint slot) {
+  uint block = slot / (kBlockSamples * wave.pixel_count);
+  return (wave.first_block + block) * kBlockSamples + slot % kBlockSamples;
+}
+
+#endif

@@ -1,0 +1,111 @@
+// Closest and any hit among primitives that are specialization constants (shared/baked.h): no tree, no loads, no
+// branches. A kernel defines BAKED_COUNT, a multiple of 8 up to 64, before including this file.
+#ifndef TACHYLITE_GEOMETRY_BAKED_GLSL
+#define TACHYLITE_GEOMETRY_BAKED_GLSL
+#include "shared/baked.h"
+
+// Primitive 8 a + b is named by its octal digits a and b, so that the preprocessor can count.
+#define BAKED_CONSTANT(a, b, c, type, name) \
+  layout(constant_id = kBakedFirstConstant + kBakedConstants * (8 * a + b) + c) const type name##_##a##b = type(0);
+#define BAKED_DECLARE(a, b) \
+  BAKED_CONSTANT(a, b, 0, uint, baked_kind) \
+  BAKED_CONSTANT(a, b, 1, float, baked_nx) \
+  BAKED_CONSTANT(a, b, 2, float, baked_ny) \
+  BAKED_CONSTANT(a, b, 3, float, baked_nz) \
+  BAKED_CONSTANT(a, b, 4, float, baked_nw) \
+  BAKED_CONSTANT(a, b, 5, float, baked_ax) \
+  BAKED_CONSTANT(a, b, 6, float, baked_ay) \
+  BAKED_CONSTANT(a, b, 7, float, baked_az) \
+  BAKED_CONSTANT(a, b, 8, float, baked_aw) \
+  BAKED_CONSTANT(a, b, 9, float, baked_bx) \
+  BAKED_CONSTANT(a, b, 10, float, baked_by) \
+  BAKED_CONSTANT(a, b, 11, float, baked_bz) \
+  BAKED_CONSTANT(a, b, 12, float, baked_bw) \
+  BAKED_CONSTANT(a, b, 13, float, baked_h) \
+  BAKED_CONSTANT(a, b, 14, float, baked_k) \
+  BAKED_CONSTANT(a, b, 15, uint, baked_hit)
+
+#define BAKED_EIGHT(macro, a) \
+  macro(a, 0) macro(a, 1) macro(a, 2) macro(a, 3) macro(a, 4) macro(a, 5) macro(a, 6) macro(a, 7)
+#define BAKED_SIXTEEN(macro, a, b) BAKED_EIGHT(macro, a) BAKED_EIGHT(macro, b)
+#if BAKED_COUNT <= 8
+#define BAKED_ALL(macro) BAKED_EIGHT(macro, 0)
+#elif BAKED_COUNT <= 16
+#define BAKED_ALL(macro) BAKED_SIXTEEN(macro, 0, 1)
+#elif BAKED_COUNT <= 24
+#define BAKED_ALL(macro) BAKED_SIXTEEN(macro, 0, 1) BAKED_EIGHT(macro, 2)
+#elif BAKED_COUNT <= 32
+#define BAKED_ALL(macro) BAKED_SIXTEEN(macro, 0, 1) BAKED_SIXTEEN(macro, 2, 3)
+#else
+#define BAKED_ALL(macro) \
+  BAKED_SIXTEEN(macro, 0, 1) BAKED_SIXTEEN(macro, 2, 3) BAKED_SIXTEEN(macro, 4, 5) BAKED_SIXTEEN(macro, 6, 7)
+#endif
+
+BAKED_ALL(BAKED_DECLARE)
+
+struct BakedRay {
+  vec3 o, d;
+  uint ignored, ignored_target;  // hits that the ray leaves and that it aims at (kNoHit: none)
+};
+
+// Whether two hits are on the same primitive.
+bool same_baked(uint kind, uint id, uint hit) {
+  return kind == kBakedTriangle ? id == hit : (id | 1u) == (hit | 1u) && hit != 0xffffffffu;
+}
+
+// Smallest t in (0, tmax) at which the ray meets the primitive; tmax if it does not.
+float hit_baked(BakedRay ray, float tmax, uint id, uint kind, vec3 N, float wN, vec3 A, float wA, vec3 B, float wB,
+                float h, float k) {
+  if (kind == kBakedSphere) {
+    // Haines et al. 2019, "Precision Improvements for Ray/Sphere Intersection"; d is any length.
+    float radius = wN;
+    vec3 f = ray.o - N;
+    float a = dot(ray.d, ray.d), b = -dot(f, ray.d);
+    vec3 nearest = f + (b / a) * ray.d;
+    float discriminant = radius * radius - dot(nearest, nearest);
+    float c = dot(f, f) - radius * radius;
+    float q = b + (b < 0.0 ? -1.0 : 1.0) * sqrt(a * max(discriminant, 0.0));
+    float t0 = c / q, t1 = q / a;
+    // A ray that leaves the sphere itself meets it at t = 0 but for rounding: only the other root counts.
+    bool leaves = same_baked(kind, id, ray.ignored);
+    float lo = min(t0, t1), hi = max(t0, t1);
+    lo = leaves ? (b > 0.0 ? hi : 0.0) : (lo > 0.0 ? lo : hi);
+    bool hit = discriminant >= 0.0 && lo > 0.0 && lo < tmax && !same_baked(kind, id, ray.ignored_target);
+    return hit ? lo : tmax;
+  }
+  float t = -(dot(N, ray.o) + wN) * (1.0 / dot(N, ray.d));
+  float s = (dot(A, ray.o) + wA) + t * dot(A, ray.d);
+  float r = (dot(B, ray.o) + wB) + t * dot(B, ray.d);
+  bool hit = abs(s) <= abs(h) && abs(r) <= abs(k) && t > 0.0 && t < tmax && !same_baked(kind, id, ray.ignored) &&
+             !same_baked(kind, id, ray.ignored_target);
+  if (kind == kBakedTriangle) hit = hit && s * (1.0 / h) + r * (1.0 / k) <= 1e-6;
+  return hit ? t : tmax;
+}
+
+#define BAKED_ARGUMENTS(a, b)                                                                                     \
+  baked_hit_##a##b, baked_kind_##a##b, vec3(baked_nx_##a##b, baked_ny_##a##b, baked_nz_##a##b), baked_nw_##a##b,   \
+      vec3(baked_ax_##a##b, baked_ay_##a##b, baked_az_##a##b), baked_aw_##a##b,                                   \
+      vec3(baked_bx_##a##b, baked_by_##a##b, baked_bz_##a##b), baked_bw_##a##b, baked_h_##a##b, baked_k_##a##b
+
+#define BAKED_CLOSEST(a, b)                                  \
+  if (baked_kind_##a##b != kBakedNone) {                     \
+    float t = hit_baked(ray, closest, BAKED_ARGUMENTS(a, b)); \
+    primitive = t < closest ? uint(8 * a + b) : primitive;   \
+    closest = t;                                             \
+  }
+// The primitive that the ray meets first before `closest`, and where; kNoIndex if none.
+uint closest_baked(BakedRay ray, inout float closest) {
+  uint primitive = 0xffffffffu;
+  BAKED_ALL(BAKED_CLOSEST)
+  return primitive;
+}
+
+#define BAKED_ANY(a, b) \
+  if (baked_kind_##a##b != kBakedNone) blocked = blocked || hit_baked(ray, tmax, BAKED_ARGUMENTS(a, b)) < tmax;
+bool any_baked(BakedRay ray, float tmax) {
+  bool blocked = false;
+  BAKED_ALL(BAKED_ANY)
+  return blocked;
+}
+
+#endif

@@ -1,0 +1,188 @@
+// From a hit to an Interaction: position with its error bound, normals, uv, tangents. Conventions are Mitsuba's
+// (uv and dp_du of each shape). Needs base/math.glsl for atan2 and acos.
+#ifndef TACHYLITE_GEOMETRY_SURFACE_GLSL
+#define TACHYLITE_GEOMETRY_SURFACE_GLSL
+#include "base/features.glsl"
+#include "base/frame.glsl"
+#include "base/math.glsl"
+#include "geometry/interaction.glsl"
+#include "shared/bindings.h"
+#include "shared/bvh.h"
+#include "shared/geometry.h"
+
+layout(set = 0, binding = kBindLeafInfo) uniform usamplerBuffer leaf_info;
+layout(set = 0, binding = kBindTriangles) uniform usamplerBuffer triangles;
+layout(set = 0, binding = kBindPositions) uniform samplerBuffer positions;
+layout(set = 0, binding = kBindNormals) uniform samplerBuffer normals;
+layout(set = 0, binding = kBindCurved) uniform samplerBuffer curved;
+layout(set = 0, binding = kBindShapes) uniform usamplerBuffer shapes;
+
+uvec4 load_leaf_info(uint leaf) { return texelFetch(leaf_info, int(leaf)); }
+uvec4 load_triangle(uint triangle) { return texelFetch(triangles, int(triangle)); }
+vec4 load_position(uint vertex) { return texelFetch(positions, int(vertex)); }
+vec4 load_normal(uint vertex) { return texelFetch(normals, int(vertex)); }
+vec4 load_curved(uint row) { return texelFetch(curved, int(row)); }
+uvec4 load_shape(uint row) { return texelFetch(shapes, int(row)); }
+
+// gamma_n = n eps / (1 - n eps): bound of the relative error of n float operations in sequence (Higham 2002).
+const float kGamma7 = 7.0 * 5.9604645e-8 / (1.0 - 7.0 * 5.9604645e-8);
+// p of a curved shape comes from the object-space point by a 3 x 4 transform, and that point from a square root:
+// generous, but still a few units in the last place.
+const float kGammaCurved = 16.0 * 5.9604645e-8;
+
+// s and t from dp_du where the material needs them so; else any.
+void set_shading_frame(inout Interaction it) {
+  Frame frame = has_material(kMaterialTangent) ? frame_from_normal_tangent(it.n_s, it.dp_du) : frame_from_normal(it.n_s);
+  it.s = frame.s;
+  it.t = frame.t;
+}
+
+// Barycentrics (of vertices 1 and 2) of the mesh's triangle from those of the leaf's, whose vertex k is vertex
+// (k + rotation) mod 3 of the mesh's triangle.
+vec2 triangle_barycentrics(float b1, float b2, uint rotation) {
+  vec3 b = vec3(1.0 - b1 - b2, b1, b2);
+  return rotation == 0u ? b.yz : (rotation == 1u ? b.xy : b.zx);
+}
+
+// Unit normal of edges of any length: they are scaled before the product, which could underflow.
+vec3 triangle_normal(vec3 e1, vec3 e2) {
+  vec3 a = max(abs(e1), abs(e2));
+  float scale = 1.0 / max(max(a.x, a.y), max(a.z, 1e-37));
+  return normalize(cross(e1 * scale, e2 * scale));
+}
+
+Interaction triangle_interaction(uint primitive, vec2 b) {
+  Interaction it;
+  uvec4 triangle = load_triangle(primitive);
+  it.shape = triangle.w;
+  uvec4 shape = load_shape(it.shape);
+  it.material = shape.x;
+  it.light = shape.y;
+  bool flip = (shape.z & kShapeFlipNormals) != 0u;
+
+  vec4 v0 = load_position(triangle.x), v1 = load_position(triangle.y), v2 = load_position(triangle.z);
+  float b0 = 1.0 - b.x - b.y;
+  it.p = b0 * v0.xyz + b.x * v1.xyz + b.y * v2.xyz;
+  it.p_error = kGamma7 * (abs(b0 * v0.xyz) + abs(b.x * v1.xyz) + abs(b.y * v2.xyz));
+  vec3 e1 = v1.xyz - v0.xyz, e2 = v2.xyz - v0.xyz;
+  vec3 n = triangle_normal(e1, e2);
+  it.n_g = flip ? -n : n;
+  it.n_s = it.n_g;
+  it.point.primitive = primitive;
+  it.point.barycentrics = b;
+  it.point.uv = b;
+  it.dp_du = vec3(0.0);
+  it.dp_dv = vec3(0.0);
+
+  if (has_vertex_normals || has_vertex_uv) {
+    vec4 n0 = load_normal(triangle.x), n1 = load_normal(triangle.y), n2 = load_normal(triangle.z);
+    if (has_vertex_normals && (shape.z & kShapeHasNormals) != 0u) {
+      vec3 ns = b0 * n0.xyz + b.x * n1.xyz + b.y * n2.xyz;
+      float length2 = dot(ns, ns);
+      if (length2 > 1e-12) it.n_s = (flip ? -ns : ns) * inversesqrt(length2);
+    }
+    if (has_vertex_uv && (shape.z & kShapeHasUv) != 0u) {
+      vec2 uv0 = vec2(v0.w, n0.w), uv1 = vec2(v1.w, n1.w), uv2 = vec2(v2.w, n2.w);
+      it.point.uv = b0 * uv0 + b.x * uv1 + b.y * uv2;
+      vec2 d1 = uv1 - uv0, d2 = uv2 - uv0;
+      float det = d1.x * d2.y - d1.y * d2.x;
+      if (det != 0.0) {
+        it.dp_du = (d2.y * e1 - d1.y * e2) / det;
+        it.dp_dv = (d1.x * e2 - d2.x * e1) / det;
+      }
+    }
+  }
+  if (has_material(kMaterialTangent) && it.dp_du == vec3(0.0)) {
+    Frame frame = frame_from_normal(n);
+    it.dp_du = frame.s;
+    it.dp_dv = frame.t;
+  }
+  set_shading_frame(it);
+  return it;
+}
+
+// o, d: the ray in device space; t: where it hit; world_to_object: the leaf's rows.
+Interaction curved_interaction(uint row, uint kind, vec4 w0, vec4 w1, vec4 w2, vec3 o, vec3 d, float t) {
+  Interaction it;
+  vec4 m0 = load_curved(row), m1 = load_curved(row + 1u), m2 = load_curved(row + 2u), info = load_curved(row + 3u);
+  it.shape = floatBitsToUint(info.x);
+  uvec4 shape = load_shape(it.shape);
+  it.material = shape.x;
+  it.light = shape.y;
+  bool flip = (shape.z & kShapeFlipNormals) != 0u;
+
+  vec3 hit = o + t * d;
+  vec3 q = vec3(dot(w0.xyz, hit) + w0.w, dot(w1.xyz, hit) + w1.w, dot(w2.xyz, hit) + w2.w);
+  vec3 n, du, dv;  // in object space
+  vec2 uv;
+  const float two_pi = 6.28318530718;
+  if (kind == kLeafSphere) {
+    q = normalize(q);
+    float phi = has_vertex_uv ? xatan2(q.y, q.x) : 0.0;
+    uv = vec2((phi < 0.0 ? phi + two_pi : phi) / two_pi, has_vertex_uv ? xacos(q.z) / 3.14159265359 : 0.0);
+    float r = sqrt(q.x * q.x + q.y * q.y);
+    n = q;
+    du = vec3(-q.y, q.x, 0.0) * two_pi;
+    dv = (r > 0.0 ? vec3(q.z * q.x / r, q.z * q.y / r, -r) : vec3(q.z, 0.0, 0.0)) * 3.14159265359;
+  } else if (kind == kLeafDisk) {
+    q.z = 0.0;
+    float r = length(q.xy);
+    float phi = has_vertex_uv ? xatan2(q.y, q.x) : 0.0;
+    uv = vec2(r, (phi < 0.0 ? phi + two_pi : phi) / two_pi);
+    n = vec3(0.0, 0.0, 1.0);
+    vec2 radial = r > 0.0 ? q.xy / r : vec2(1.0, 0.0);
+    du = vec3(radial, 0.0);
+    dv = vec3(-radial.y, radial.x, 0.0) * (two_pi * r);
+  } else {
+    q.xy *= inversesqrt(max(dot(q.xy, q.xy), 1e-30));
+    float phi = has_vertex_uv ? xatan2(q.y, q.x) : 0.0;
+    uv = vec2((phi < 0.0 ? phi + two_pi : phi) / two_pi, q.z);
+    n = vec3(q.xy, 0.0);
+    du = vec3(-q.y, q.x, 0.0) * two_pi;
+    dv = vec3(0.0, 0.0, 1.0);
+  }
+  it.p = vec3(dot(m0.xyz, q) + m0.w, dot(m1.xyz, q) + m1.w, dot(m2.xyz, q) + m2.w);
+  it.p_error = kGammaCurved * (vec3(dot(abs(m0.xyz), abs(q)), dot(abs(m1.xyz), abs(q)), dot(abs(m2.xyz), abs(q))) +
+                               abs(vec3(m0.w, m1.w, m2.w)));
+  // Normals go by the inverse transpose: the columns of world-to-object are its rows.
+  n = normalize(w0.xyz * n.x + w1.xyz * n.y + w2.xyz * n.z);
+  it.n_g = flip ? -n : n;
+  it.n_s = it.n_g;
+  it.dp_du = vec3(dot(m0.xyz, du), dot(m1.xyz, du), dot(m2.xyz, du));
+  it.dp_dv = vec3(dot(m0.xyz, dv), dot(m1.xyz, dv), dot(m2.xyz, dv));
+  it.point.uv = uv;
+  it.point.primitive = kNoIndex;
+  it.point.barycentrics = vec2(0.0);
+  set_shading_frame(it);
+  return it;
+}
+
+// hit = (bits of 2 * leaf + triangle, b1, b2, t) of a ray o + t d that hit something.
+Interaction load_interaction(vec4 hit, vec3 o, vec3 d) {
+  uint id = floatBitsToUint(hit.x);
+  uint leaf = id >> 1u;
+  uvec4 info = load_leaf_info(leaf);
+  uint kind = info.z & kLeafKindMask;
+  if (has_curved && kind != kLeafTriangles) {
+    uint row = leaf * kBvhLeafRows;
+    return curved_interaction(info.x, kind, load_bvh_leaf(row), load_bvh_leaf(row + 1u), load_bvh_leaf(row + 2u), o, d, hit.w);
+  }
+  uint second = id & 1u;
+  uint rotation = (info.w >> (2u * second)) & 3u;
+  return triangle_interaction(second != 0u ? info.y : info.x, triangle_barycentrics(hit.y, hit.z, rotation));
+}
+
+// Moves the origin of a ray that leaves `it` in direction w off the surface, to the side of w, by the bound of the
+// error of it.p (Pharr, Jakob and Humphreys, PBRT 4th ed., section 6.8.6): no scene epsilon.
+vec3 offset_origin(Interaction it, vec3 w) {
+  float distance = dot(abs(it.n_g), it.p_error);
+  vec3 offset = distance * it.n_g;
+  if (dot(w, it.n_g) < 0.0) offset = -offset;
+  vec3 o = it.p + offset;
+  o.x = offset.x > 0.0 ? next_float_up(o.x) : (offset.x < 0.0 ? next_float_down(o.x) : o.x);
+  o.y = offset.y > 0.0 ? next_float_up(o.y) : (offset.y < 0.0 ? next_float_down(o.y) : o.y);
+  o.z = offset.z > 0.0 ? next_float_up(o.z) : (offset.z < 0.0 ? next_float_down(o.z) : o.z);
+  return o;
+}
+
+#endif

@@ -1,0 +1,31 @@
+// Sizes the indirect dispatches that follow from the lengths of the queues, and empties the queues that they fill.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+layout(local_size_x = 1) in;
+#include "base/features.glsl"
+#include "base/queues.glsl"
+#include "geometry/trace_settings.glsl"
+
+void set_groups(uint dispatch, uint lanes, uint lanes_per_group) {
+  uint word = kCounterArguments + 4u * dispatch;
+  counters[word] = (lanes + lanes_per_group - 1u) / lanes_per_group;
+  counters[word + 1u] = 1u;
+  counters[word + 2u] = 1u;
+}
+
+void main() {
+  if (wave.mode == kPrepareTrace) {
+    // Shading (or the camera) has queued rays for wave.bounce and shadow rays.
+    uint rays = counters[kCounterQueue + wave.ray_queue], shadow = counters[kCounterShadow];
+    set_groups(kDispatchClosest, rays, wave.bounce == 0u ? kPlainRaysPerGroup : kRefillRaysPerGroup);
+    set_groups(kDispatchShadow, shadow, kRefillRaysPerGroup);
+    counters[kCounterClosestTotal] += rays;
+    counters[kCounterShadowTotal] += shadow;
+    for (uint q = kQueueEmitter; q < kQueueSurface + class_count; ++q) counters[kCounterQueue + q] = 0u;
+  } else {
+    for (uint q = kQueueEmitter; q < kQueueSurface + class_count; ++q)
+      set_groups(kDispatchQueue + q, counters[kCounterQueue + q], kWorkgroupSize);
+    counters[kCounterQueue + (1u - wave.ray_queue)] = 0u;
+    counters[kCounterShadow] = 0u;
+  }
+}

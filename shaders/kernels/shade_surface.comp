@@ -1,0 +1,54 @@
+// One bounce on a surface of one material class: a shadow ray towards a sampled light, and the next ray.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+layout(local_size_x = 64) in;
+#include "base/queues.glsl"
+#include "geometry/load.glsl"
+#include "path/surface_vertex.glsl"
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  bool live = i < queue_length(kQueueSurface + material_class);
+  uint slot = live ? load_queue(kQueueSurface + material_class, i) : 0u;
+  vec3 d = load_path(kPathDirection, slot).xyz;
+  vec4 beta = load_path(kPathBeta, slot);
+  vec4 hit = load_path(kPathHit, slot);
+  vec3 o = has_curved ? load_path(kPathOrigin, slot).xyz : vec3(0.0);
+  Interaction it = load_interaction(hit, o, d);
+  SurfaceBsdf bsdf = load_bsdf(it, -d);
+  uvec2 pixel;
+  pixel_of(slot_tile_pixel(slot), pixel);
+  PathSampler path_sampler = begin_path_sampler(film_pixel(pixel), slot_sample(slot), params.seed);
+  vec4 choices = needs_choices() ? choice_sample(path_sampler, wave.bounce) : vec4(0.0);
+  uint edges = wave.bounce + 1u;
+
+  float selection_norm = 0.0;
+  if (samples_lights(edges)) {
+    vec2 u = path_sample(path_sampler, wave.bounce == 0u ? kGroupCamera : group_directions(wave.bounce - 1u)).zw;
+    ShadowRay ray = sample_direct_light(it, bsdf, beta.xyz, u, choices.x, selection_norm);
+    bool wanted = live && ray.wanted;
+    if (wanted && !is_finite(ray.contribution)) {
+      atomicAdd(counters[kCounterNonfinite], 1u);
+      wanted = false;
+    }
+    append_shadow_ray(wanted, ray.o, floatBitsToUint(hit.x), ray.d, ray.target, ray.contribution, slot);
+  }
+
+  if (goes_on(edges)) {
+    vec2 u = direction_sample(path_sampler, wave.bounce).xy;
+    NextRay ray = sample_next_ray(it, bsdf, beta, edges, u, choices.y, choices.z);
+    bool alive = live && ray.alive;
+    if (alive && !is_finite(ray.beta.xyz)) {
+      atomicAdd(counters[kCounterNonfinite], 1u);
+      alive = false;
+    }
+    append_to_queue(1u - wave.ray_queue, alive, slot);
+    if (alive) {
+      store_path(kPathOrigin, slot, vec4(ray.o, hit.x));
+      store_path(kPathDirection, slot, vec4(ray.d, ray.pdf));
+      store_path(kPathBeta, slot, ray.beta);
+      if (light_selection == kSelectLoop || light_selection == kSelectTree)
+        store_path(kPathRadiance, slot, vec4(load_path(kPathRadiance, slot).xyz, selection_norm));
+    }
+  }
+}

@@ -1,0 +1,27 @@
+// The sample numbers of a path by what they are for; which dimensions they are stands in shared/sampler.h.
+#ifndef TACHYLITE_PATH_PATH_SAMPLER_GLSL
+#define TACHYLITE_PATH_PATH_SAMPLER_GLSL
+#include "base/features.glsl"
+#include "shared/sampler.h"
+
+struct PathSampler {
+  uint key, index;
+};
+
+PathSampler begin_path_sampler(uint pixel, uint sample_index, uint seed) {
+  return PathSampler(pixel_key(pixel, seed), sample_index);
+}
+
+vec4 path_sample(PathSampler s, uint group) {
+  return unit_float4(sample_group(sampler_kind, s.key, s.index, group, log2_samples));
+}
+
+// xy: position in the pixel; zw: light point of vertex 0.
+vec4 camera_sample(PathSampler s) { return path_sample(s, kGroupCamera); }
+vec2 lens_sample(PathSampler s) { return path_sample(s, kGroupLens).xy; }
+// xy: direction at a vertex; zw: light point of the next vertex.
+vec4 direction_sample(PathSampler s, uint vertex) { return path_sample(s, group_directions(vertex)); }
+// x: choice of a light, y: of a lobe, z: Russian roulette.
+vec4 choice_sample(PathSampler s, uint vertex) { return path_sample(s, group_choices(vertex)); }
+
+#endif

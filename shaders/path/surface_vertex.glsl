@@ -1,0 +1,83 @@
+// One vertex of a path on a surface: next-event estimation and the next ray. Shared by the stage shade_surface and
+// the kernel that follows whole paths.
+#ifndef TACHYLITE_PATH_SURFACE_VERTEX_GLSL
+#define TACHYLITE_PATH_SURFACE_VERTEX_GLSL
+#include "base/features.glsl"
+#include "geometry/surface.glsl"
+#include "bsdf/bsdf.glsl"
+#include "light/light.glsl"
+#include "path/mis.glsl"
+#include "path/path_sampler.glsl"
+#include "shared/path_state.h"
+
+// A ray towards a sampled light; `contribution` counts if nothing lies in between.
+struct ShadowRay {
+  bool wanted;
+  vec3 o, d;           // shared/path_state.h: the light is at o + d
+  uint target;
+  vec3 contribution;
+};
+
+struct NextRay {
+  bool alive;
+  vec3 o, d;
+  float pdf;           // [1/sr], 0 after a delta lobe
+  vec4 beta;           // throughput; w: eta^2 of refractions, to be undone in roulette
+};
+
+ShadowRay no_shadow_ray() { return ShadowRay(false, vec3(0.0), vec3(0.0), 0u, vec3(0.0)); }
+
+// Whether the vertex of a path with `edges` edges samples a light.
+bool samples_lights(uint edges) {
+  return light_selection != kSelectNone && strategy != kStrategyBsdf && has_material(kMaterialSmooth) &&
+         edges < max_depth;
+}
+
+// u: point on the light; u_select: which light.
+ShadowRay sample_direct_light(Interaction it, SurfaceBsdf bsdf, vec3 beta, vec2 u, float u_select,
+                              out float selection_norm) {
+  LightSample light = sample_light(it.p, it.n_s, u, u_select, selection_norm);
+  BsdfEval eval = eval_bsdf(bsdf, light.wi);
+  float weight = light.delta || strategy == kStrategyEmitter ? 1.0 : mis_weight(light.pdf, eval.pdf);
+  ShadowRay ray;
+  ray.contribution = beta * eval.f * light.radiance * (weight / light.pdf);
+  ray.wanted = light.pdf > 0.0 && ray.contribution != vec3(0.0);
+  ray.target = light.target;
+  ray.o = offset_origin(it, light.wi);
+  // Aim from the offset origin at the same target.
+  ray.d = light.target == kTargetInfinite ? light.wi : (it.p - ray.o) + light.to_light;
+  return ray;
+}
+
+// Survival probability of Russian roulette: twice the largest component of the throughput, at most 0.95, with the
+// scaling of radiance by refraction undone.
+float survival_probability(vec4 beta) { return min(0.95, 2.0 * beta.w * max_component(beta.xyz)); }
+
+// Whether some path takes part in Russian roulette, and whether vertices need the numbers of choice_sample.
+bool has_roulette() { return roulette_depth < max_depth; }
+bool needs_choices() { return has_roulette() || light_selection > kSelectSingle || !only_single_lobes(); }
+
+// The next ray of a path with `edges` edges. u: direction; u_lobe, u_roulette: choices.
+NextRay sample_next_ray(Interaction it, SurfaceBsdf bsdf, vec4 beta, uint edges, vec2 u, float u_lobe,
+                        float u_roulette) {
+  BsdfSample s = sample_bsdf(bsdf, u, u_lobe);
+  NextRay ray;
+  ray.beta = vec4(beta.xyz * s.weight, beta.w * s.eta * s.eta);
+  ray.alive = ray.beta.xyz != vec3(0.0);
+  if (has_roulette() && edges >= roulette_depth) {
+    float q = survival_probability(ray.beta);
+    ray.alive = ray.alive && u_roulette < q;
+    ray.beta.xyz /= q;
+  }
+  ray.o = offset_origin(it, s.wi);
+  ray.d = s.wi;
+  ray.pdf = s.pdf;
+  return ray;
+}
+
+// Whether a path of `edges` edges goes on: the next ray must still be able to find light.
+bool goes_on(uint edges) {
+  return has_escaped_light() || has_area_light() ? edges < max_depth : edges + 1u < max_depth;
+}
+
+#endif

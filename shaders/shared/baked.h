@@ -1,0 +1,32 @@
+// Geometry of tiny scenes as specialization constants: every primitive is tested by straight-line code, without a
+// tree. Written by host/pack/bake_geometry, read by geometry/baked.glsl.
+//
+// Primitive i has kBakedConstants constants from id kBakedFirstConstant + i * kBakedConstants on:
+//   0: kind kBaked...
+//   parallelogram, triangle: 1..4: N, wN; 5..8: A, wA; 9..12: B, wB; 13: h; 14: k
+//     A point p of the plane dot(N, p) + wN = 0 has s = dot(A, p) + wA and t = dot(B, p) + wB and lies in the
+//     parallelogram where |s| <= |h| and |t| <= |k|; in the triangle if also s / h + t / k <= 0. N, A, B are unit; one
+//     direction is always written with the same bits and sign, so that the compiler shares the dot products of
+//     parallel faces. h and k are a little (1e-6) too large: faces that meet leave no gap.
+//   sphere: 1..3: centre; 4: radius
+//   15: the hit that names it: 2 * leaf + triangle (2 * leaf for a parallelogram or sphere)
+// What shading needs of primitive i, kBakedRows rows of vec4 in kBindBaked:
+//   row 0: outward unit normal, offset: dot(n, p) + w = 0 (sphere: centre, radius; negative: normals point inwards)
+//   row 1: bits of: material row (kNoIndex: absorbs everything); light row; primitive of the scene (curved: kNoIndex); hit
+#ifndef TACHYLITE_SHARED_BAKED_H
+#define TACHYLITE_SHARED_BAKED_H
+#include "interop.h"
+TACHYLITE_SHARED_BEGIN
+
+TACHYLITE_CONST uint kBakedNone = 0u;
+TACHYLITE_CONST uint kBakedParallelogram = 1u;
+TACHYLITE_CONST uint kBakedTriangle = 2u;
+TACHYLITE_CONST uint kBakedSphere = 3u;
+
+TACHYLITE_CONST uint kBakedFirstConstant = 64u;
+TACHYLITE_CONST uint kBakedConstants = 16u;
+TACHYLITE_CONST uint kBakedRows = 2u;
+TACHYLITE_CONST uint kMaxBaked = 64u;
+
+TACHYLITE_SHARED_END
+#endif
