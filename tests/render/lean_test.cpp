@@ -1,0 +1,72 @@
+// A scene pays only for what it uses: no kernel and no buffer for what it lacks.
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "support/render_test.h"
+#include "wavefront/scene_buffers.h"
+
+namespace tachylite::test {
+namespace {
+
+using Lean = DeviceTest;
+
+bool names(const std::vector<std::string>& list, const std::string& part) {
+  return std::any_of(list.begin(), list.end(), [&](const std::string& s) { return s.find(part) != std::string::npos; });
+}
+
+RenderOptions stages() {
+  RenderOptions options;
+  options.samples = 4;
+  options.structure = KernelStructure::kStages;
+  return options;
+}
+
+std::vector<std::string> buffers_of(const Scene& scene) {
+  std::vector<std::string> buffers;
+  for (const MemoryPlan::Entry& e : Renderer::plan_memory(device().info(), pack_scene(scene), stages()).buffers)
+    buffers.push_back(e.name);
+  return buffers;
+}
+
+TEST_F(Lean, CornellBoxHasNoEnvironmentTextureOrMedium) {
+  const Scene scene = scene_from_elements(cornell_elements(16));
+  const DeviceRender render = render_on_device(scene, stages());
+  EXPECT_TRUE(names(render.stages_run, "shade_emitter"));
+  EXPECT_TRUE(names(render.stages_run, "shade_surface<diffuse>"));
+  for (const char* stage : {"escaped", "medium"}) {
+    EXPECT_FALSE(names(render.stages_run, stage)) << stage;
+    EXPECT_TRUE(names(render.stages_skipped, stage)) << stage;
+  }
+  const std::vector<std::string> buffers = buffers_of(scene);
+  for (const char* buffer : {"texels", "textures", "environment", "media", "grids", "curved", "normals", "attributes"})
+    EXPECT_FALSE(names(buffers, buffer)) << buffer;
+  for (const char* buffer : {"tree nodes", "lights", "path state", "shadow rays"})
+    EXPECT_TRUE(names(buffers, buffer)) << buffer;
+}
+
+TEST_F(Lean, EachFeatureBringsItsOwn) {
+  const std::string sensor = R"(<integrator type="path"/>)" + sensor_element(8, 8);
+  const std::string plain_wall = R"(<shape type="rectangle"/>)";
+  const Scene unlit = scene_from_elements(sensor + plain_wall + R"(<emitter type="point"/>)");
+  EXPECT_FALSE(names(render_on_device(unlit, stages()).stages_run, "shade_emitter"));
+  EXPECT_FALSE(names(render_on_device(unlit, stages()).stages_run, "shade_escaped"));
+  EXPECT_TRUE(names(render_on_device(unlit, stages()).stages_run, "intersect_shadow"));
+
+  const Scene sky = scene_from_elements(sensor + plain_wall + R"(<emitter type="constant"/>)");
+  EXPECT_TRUE(names(render_on_device(sky, stages()).stages_run, "shade_escaped"));
+
+  const Scene checkered = scene_from_elements(
+      sensor + R"(<shape type="rectangle"><bsdf type="diffuse"><texture name="reflectance" type="checkerboard"/></bsdf>
+</shape><emitter type="point"/>)");
+  EXPECT_TRUE(names(buffers_of(checkered), "textures"));
+  EXPECT_FALSE(names(buffers_of(checkered), "texels"));
+
+  const Scene ball = scene_from_elements(sensor + R"(<shape type="sphere"/><emitter type="point"/>)");
+  EXPECT_TRUE(names(buffers_of(ball), "curved"));
+  EXPECT_FALSE(names(buffers_of(ball), "triangles"));
+}
+
+}  // namespace
+}  // namespace tachylite::test

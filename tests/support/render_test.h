@@ -1,0 +1,31 @@
+#pragma once
+
+// Scenes as text, rendered on the test device.
+
+#include <string>
+
+#include "pack/pack_scene.h"
+#include "scene/scene.h"
+#include "support/device_test.h"
+#include "wavefront/renderer.h"
+
+namespace tachylite::test {
+
+/// Reads a scene given as the elements inside <scene>; files it names are relative to a temporary folder.
+Scene scene_from_elements(const std::string& elements);
+
+/// A sensor at `origin` that looks at `target`, with a box filter.
+std::string sensor_element(int width, int height, const std::string& origin = "0, 0, 4",
+                           const std::string& target = "0, 0, 0", double fov = 40);
+
+/// An open Cornell box of rectangles and cubes, [-1, 1]^3, seen from +z, with an integrator of that depth.
+std::string cornell_elements(int size, int max_depth = 8);
+
+struct DeviceRender {
+  FilmBuffer film;
+  RenderStatistics statistics;
+  std::vector<std::string> stages_run, stages_skipped;
+};
+DeviceRender render_on_device(const Scene& scene, const RenderOptions& options);
+
+}  // namespace tachylite::test
