@@ -66,6 +66,15 @@ float difference_of_products(float a, float b, float c, float d) {
   return difference;
 }
 
+/// The nearest integer, |x| < 2^22: the last bit of 3 * 2^22 + x is a one's place. (round and floor are slow on lavapipe
+/// 25.0.7.)
+int round_to_int(float x, out float rounded) {
+  precise const float shifted = x + 12582912.0;
+  precise const float back = shifted - 12582912.0;
+  rounded = back;
+  return floatBitsToInt(shifted) - 0x4b400000;
+}
+
 // expm1(r) for |r| <= log(2) / 2; 1.8e-8.
 float expm1_reduced(float r) {
   const float p =
@@ -74,27 +83,28 @@ float expm1_reduced(float r) {
 }
 
 // x = n log(2) + r with |r| <= log(2) / 2. The first product is exact for |n| < 2^15.
-float reduce_exp(float x, out float n) {
-  n = round(x * 1.44269504);
-  precise const float r = (x - n * 0.693359375) - n * -2.12194440e-4;
+float reduce_exp(float x, out int n) {
+  float k;
+  n = round_to_int(x * 1.44269504, k);
+  precise const float r = (x - k * 0.693359375) - k * -2.12194440e-4;
   return r;
 }
 
 float exp2_of_integer(int n) { return uintBitsToFloat(uint(n + 127) << 23); }  // -126 <= n <= 127
 
 float xexp(float x) {
-  float n;
+  int n;
   const float r = reduce_exp(clamp(x, -104.0, 89.0), n);  // to 0 and to infinity
-  const int whole = int(n), part = whole >> 1;            // 2^whole itself may be no float
-  const float y = (1.0 + expm1_reduced(r)) * exp2_of_integer(part) * exp2_of_integer(whole - part);
+  const int part = n >> 1;                                // 2^n itself may be no float
+  const float y = (1.0 + expm1_reduced(r)) * exp2_of_integer(part) * exp2_of_integer(n - part);
   return is_nan(x) ? x : y;
 }
 vec3 xexp(vec3 v) { return vec3(xexp(v.x), xexp(v.y), xexp(v.z)); }
 
 float xexpm1(float x) {
-  float n;
+  int n;
   const float r = reduce_exp(clamp(x, -18.0, 89.0), n);
-  const float scale = exp2_of_integer(int(n) - 1);  // half of 2^n, which may be no float
+  const float scale = exp2_of_integer(n - 1);  // half of 2^n, which may be no float
   const float y = 2.0 * (scale * expm1_reduced(r) + (scale - 0.5));
   return is_nan(x) ? x : y;
 }
@@ -210,12 +220,12 @@ vec2 cos_sin_eighth(float turns) {
   return vec2(c, s);
 }
 
-/// (cos, sin) of 2 pi turns, |turns| < 2^22; exact multiples of 1/4 give exact zeros and ones. The way to the
+/// (cos, sin) of 2 pi turns, |turns| < 2^20; exact multiples of 1/4 give exact zeros and ones. The way to the
 /// direction of an azimuth 2 pi u.
 vec2 cos_sin_turns(float turns) {
-  const float quarter = round(4.0 * turns);
+  float quarter;
+  const int q = round_to_int(4.0 * turns, quarter);
   const vec2 a = cos_sin_eighth(turns - 0.25 * quarter);
-  const int q = int(quarter);
   const vec2 b = (q & 1) == 0 ? a : vec2(-a.y, a.x);
   return (q & 2) == 0 ? b : -b;
 }
