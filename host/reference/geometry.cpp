@@ -1,0 +1,198 @@
+#include "reference/geometry.h"
+
+#include "reference/analytic_shape.h"
+
+namespace tachylite::reference {
+namespace {
+
+/// Roundings of a hit point and of the distance that a ray finds to its own surface are a few units of 2^-53 of the
+/// primitive's coordinates; this is 4096 of them.
+constexpr double kRelativeError = 0x1p-41;
+
+dvec3 interpolate(const std::vector<glm::vec3>& values, const glm::uvec3& v, const dvec3& b) {
+  return b.x * dvec3(values[v.x]) + b.y * dvec3(values[v.y]) + b.z * dvec3(values[v.z]);
+}
+
+}  // namespace
+
+Geometry::Geometry(const Scene& scene) : scene_(scene) {
+  std::vector<Box> boxes;
+  for (const Shape& shape : scene.shapes) {
+    const int shape_index = static_cast<int>(shapes_.size());
+    WorldShape& world = shapes_.emplace_back();
+    if (const auto* mesh = std::get_if<MeshShape>(&shape.kind)) world.mesh = mesh->mesh;
+    if (std::holds_alternative<CubeShape>(shape.kind)) world.mesh = make_cube_mesh();
+    world.to_world = world.mesh ? shape.to_world : unit_shape_to_world(shape);
+    world.to_object = glm::inverse(world.to_world);
+    world.normal_to_world = glm::transpose(dmat3(world.to_object));
+
+    Box bounds;
+    auto add = [&](uint32_t triangle, const Box& box) {
+      primitives_.push_back({shape_index, triangle});
+      boxes.push_back(box);
+      bounds.grow(box);
+    };
+    if (world.mesh) {
+      for (const glm::vec3& p : world.mesh->positions) world.positions.push_back(transform_point(world.to_world, p));
+      for (uint32_t i = 0; i < world.mesh->triangles.size(); ++i) {
+        const glm::uvec3 v = world.mesh->triangles[i];
+        const dvec3 a = world.positions[v.x], b = world.positions[v.y], c = world.positions[v.z];
+        world.area += 0.5 * glm::length(glm::cross(b - a, c - a));
+        world.triangle_area_sums.push_back(world.area);
+        Box box;
+        for (const dvec3& p : {a, b, c}) box.grow(p);
+        add(i, box);
+      }
+    } else {
+      world.area = unit_shape_area(shape, world.to_world);
+      Box box;  // of the box around the unit shape
+      for (int corner = 0; corner < 8; ++corner) {
+        dvec3 p((corner & 1) ? 1 : -1, (corner & 2) ? 1 : -1, (corner & 4) ? 1 : -1);
+        if (std::holds_alternative<CylinderShape>(shape.kind)) p.z = std::max(p.z, 0.0);
+        if (std::holds_alternative<RectangleShape>(shape.kind) || std::holds_alternative<DiskShape>(shape.kind)) p.z = 0;
+        box.grow(transform_point(world.to_world, p));
+      }
+      add(0, box);
+    }
+    world.error = kRelativeError * std::max(max_abs(bounds.low), max_abs(bounds.high));
+  }
+
+  // Pad the boxes by the error: analytic hits are found in another space.
+  for (size_t i = 0; i < boxes.size(); ++i) {
+    const double error = shapes_[static_cast<size_t>(primitives_[i].shape)].error;
+    boxes[i].low -= error;
+    boxes[i].high += error;
+  }
+  bvh_ = Bvh2(boxes);
+}
+
+std::optional<Geometry::Candidate> Geometry::intersect_primitive(const Primitive& primitive, const Ray& ray,
+                                                                 double t_max) const {
+  const WorldShape& world = shapes_[static_cast<size_t>(primitive.shape)];
+  if (!world.mesh) {
+    const auto hit = intersect_unit_shape(scene_.shapes[static_cast<size_t>(primitive.shape)],
+                                          transform_point(world.to_object, ray.origin),
+                                          transform_vector(world.to_object, ray.direction), t_max);
+    if (!hit) return std::nullopt;
+    return Candidate{hit->t, hit->p};
+  }
+  // Moeller and Trumbore 1997; edges belong to both triangles.
+  const glm::uvec3 v = world.mesh->triangles[primitive.triangle];
+  const dvec3 v0 = world.positions[v.x];
+  const dvec3 e1 = world.positions[v.y] - v0, e2 = world.positions[v.z] - v0;
+  const dvec3 q = glm::cross(ray.direction, e2);
+  const double determinant = glm::dot(e1, q);
+  if (determinant == 0) return std::nullopt;
+  const dvec3 s = ray.origin - v0;
+  const double b1 = glm::dot(s, q) / determinant;
+  if (!(b1 >= 0 && b1 <= 1)) return std::nullopt;
+  const dvec3 r = glm::cross(s, e1);
+  const double b2 = glm::dot(ray.direction, r) / determinant;
+  if (!(b2 >= 0 && b1 + b2 <= 1)) return std::nullopt;
+  const double t = glm::dot(e2, r) / determinant;
+  if (!(t > 0 && t < t_max)) return std::nullopt;
+  return Candidate{t, {1 - b1 - b2, b1, b2}};
+}
+
+std::optional<SurfacePoint> Geometry::intersect(const Ray& ray, bool without_emitters) const {
+  std::optional<Candidate> nearest;
+  Primitive primitive{};
+  bvh_.traverse(ray, [&](uint32_t item, double& t_max) {
+    const Primitive& candidate = primitives_[item];
+    if (without_emitters && scene_.shapes[static_cast<size_t>(candidate.shape)].emitter != kNone) return false;
+    if (const auto hit = intersect_primitive(candidate, ray, t_max)) {
+      nearest = hit;
+      primitive = candidate;
+      t_max = hit->t;
+    }
+    return false;
+  });
+  if (!nearest) return std::nullopt;
+  SurfacePoint point = surface_point(primitive, nearest->where);
+  point.t = nearest->t;
+  return point;
+}
+
+bool Geometry::occluded(const Ray& ray) const {
+  return bvh_.traverse(ray, [&](uint32_t item, double& t_max) {
+    return intersect_primitive(primitives_[item], ray, t_max).has_value();
+  });
+}
+
+SurfacePoint Geometry::surface_point(const Primitive& primitive, const dvec3& where) const {
+  const WorldShape& world = shapes_[static_cast<size_t>(primitive.shape)];
+  SurfacePoint point = world.mesh ? triangle_point(primitive, where) : analytic_point(primitive, where);
+  point.shape = primitive.shape;
+  point.error = world.error;
+  if (scene_.shapes[static_cast<size_t>(primitive.shape)].flip_normals) {
+    point.n_g = -point.n_g;
+    point.frame.n = -point.frame.n;
+  }
+  point.frame = frame_around(point.frame.n, point.dp_du);
+  return point;
+}
+
+SurfacePoint Geometry::triangle_point(const Primitive& primitive, const dvec3& b) const {
+  const WorldShape& world = shapes_[static_cast<size_t>(primitive.shape)];
+  const Shape& shape = scene_.shapes[static_cast<size_t>(primitive.shape)];
+  const Mesh& mesh = *world.mesh;
+  const glm::uvec3 v = mesh.triangles[primitive.triangle];
+  const dvec3 p0 = world.positions[v.x], p1 = world.positions[v.y], p2 = world.positions[v.z];
+  SurfacePoint point;
+  point.p = b.x * p0 + b.y * p1 + b.z * p2;
+  point.n_g = glm::normalize(glm::cross(p1 - p0, p2 - p0));
+  point.at = {dvec2(b.y, b.z), &mesh, primitive.triangle, b};
+
+  // Interpolate the normal.
+  point.frame.n = point.n_g;
+  if (!mesh.normals.empty() && !shape.face_normals) {
+    const dvec3 n = world.normal_to_world * interpolate(mesh.normals, v, b);
+    if (glm::dot(n, n) > 0) point.frame.n = glm::normalize(n);
+  }
+
+  // Derivatives w.r.t. uv; without uv, or where they are degenerate, any frame of the triangle.
+  const Frame any = frame_around(point.n_g);
+  point.dp_du = any.s;
+  point.dp_dv = any.t;
+  if (!mesh.uvs.empty()) {
+    const dvec2 uv0 = mesh.uvs[v.x], uv1 = mesh.uvs[v.y], uv2 = mesh.uvs[v.z];
+    point.at.uv = b.x * uv0 + b.y * uv1 + b.z * uv2;
+    const dvec2 d1 = uv1 - uv0, d2 = uv2 - uv0;
+    const double determinant = d1.x * d2.y - d1.y * d2.x;
+    if (determinant != 0) {
+      point.dp_du = (d2.y * (p1 - p0) - d1.y * (p2 - p0)) / determinant;
+      point.dp_dv = (d1.x * (p2 - p0) - d2.x * (p1 - p0)) / determinant;
+    }
+  }
+  return point;
+}
+
+SurfacePoint Geometry::analytic_point(const Primitive& primitive, const dvec3& object_point) const {
+  const WorldShape& world = shapes_[static_cast<size_t>(primitive.shape)];
+  const UnitShapePoint unit = unit_shape_point(scene_.shapes[static_cast<size_t>(primitive.shape)], object_point);
+  SurfacePoint point;
+  point.p = transform_point(world.to_world, object_point);
+  point.n_g = glm::normalize(world.normal_to_world * unit.normal);
+  point.frame.n = point.n_g;
+  point.at.uv = unit.uv;
+  point.dp_du = transform_vector(world.to_world, unit.dp_du);
+  point.dp_dv = transform_vector(world.to_world, unit.dp_dv);
+  return point;
+}
+
+AreaSample Geometry::sample_area(int shape, Random& random) const {
+  const WorldShape& world = shapes_[static_cast<size_t>(shape)];
+  if (!world.mesh) {
+    const dvec3 where = sample_unit_shape(scene_.shapes[static_cast<size_t>(shape)], random.uniform2());
+    return {surface_point({shape, 0}, where), 1 / world.area};
+  }
+  const auto& sums = world.triangle_area_sums;
+  const auto chosen = std::upper_bound(sums.begin(), sums.end(), random.uniform() * world.area);
+  const size_t triangle = std::min(static_cast<size_t>(chosen - sums.begin()), sums.size() - 1);
+  const dvec2 u = random.uniform2();
+  const double r = std::sqrt(u.x);  // uniform on the triangle
+  const dvec3 barycentrics(1 - r, r * (1 - u.y), r * u.y);
+  return {surface_point({shape, static_cast<uint32_t>(triangle)}, barycentrics), 1 / world.area};
+}
+
+}  // namespace tachylite::reference
