@@ -34,19 +34,24 @@ std::vector<Aov> parse_aovs(const std::vector<std::string>& specifications) {
       const size_t colon = item.find(':');
       const std::string name = item.substr(0, colon);
       const std::string type = colon == std::string::npos ? name : item.substr(colon + 1);
-      const auto found = std::find_if(kTypes.begin(), kTypes.end(), [&](const Type& t) { return type == t.name; });
+      const auto found =
+          std::find_if(kTypes.begin(), kTypes.end(), [&](const Type& t) { return type == t.name; });
       if (found == kTypes.end())
-        throw InputError(fmt::format("unknown AOV '{}', expected albedo, depth, position, uv, geo_normal, sh_normal, "
-                                     "dp_du, dp_dv, prim_index or shape_index",
-                                     type));
+        throw InputError(
+            fmt::format("unknown AOV '{}', expected albedo, depth, position, uv, geo_normal, sh_normal, "
+                        "dp_du, dp_dv, prim_index or shape_index",
+                        type));
       Aov aov{found->kind, {}};
-      for (const char* suffix = found->suffixes; *suffix; ++suffix) aov.channels.push_back(name + "." + *suffix);
+      for (const char* suffix = found->suffixes; *suffix; ++suffix)
+        aov.channels.push_back(name + "." + *suffix);
       aovs.push_back(aov);
     }
   }
   return aovs;
 }
 
-Aov moment_aov() { return {gpu::kAovMoment, {"m2_R", "m2_G", "m2_B"}}; }
+Aov moment_aov() {
+  return {gpu::kAovMoment, {"m2_R", "m2_G", "m2_B"}};
+}
 
 }  // namespace tachylite
