@@ -55,11 +55,11 @@ std::string format_progress_bar(const ProgressFigures& f, int columns) {
 
 ProgressDisplay::ProgressDisplay(bool quiet, std::FILE* stream)
     : stream_(stream),
-      style_(quiet ? Style::kNone : isatty(fileno(stream)) ? Style::kBar : Style::kLines),
+      style_(quiet ? Style::kSilent : isatty(fileno(stream)) ? Style::kBar : Style::kLines),
       next_(style_ == Style::kLines ? interval_ : 0) {}
 
 void ProgressDisplay::update(const ProgressFigures& figures) {
-  if (style_ == Style::kNone || timer_.seconds() < next_) return;
+  if (style_ == Style::kSilent || timer_.seconds() < next_) return;
   if (style_ == Style::kBar) {
     fmt::print(stream_, "\r{}\033[K", format_progress_bar(figures, terminal_columns(stream_) - 1));
     drawn_ = true;

@@ -38,12 +38,12 @@ class ProgressDisplay {
   void finish();
 
  private:
-  enum class Style { kNone, kBar, kLines };
+  enum class Style { kSilent, kBar, kLines };
   std::FILE* stream_;
   Style style_;
   Timer timer_;
-  double next_ = 0;       // when to show something again [s of timer_]
   double interval_ = 10;  // of plain lines [s]
+  double next_;           // when to show something again [s of timer_]
   bool drawn_ = false;
 };
 

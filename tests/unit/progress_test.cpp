@@ -40,6 +40,7 @@ TEST(Progress, SilentWhenQuietAndForShortRenders) {
     ProgressDisplay display(quiet, file);
     for (int i = 0; i <= 10; ++i) display.update({0.1 * i, 1, 10, 1, 1, 0});
     display.finish();
+    std::fflush(file);
     EXPECT_EQ(std::ftell(file), 0);  // not a terminal, and less than 10 s
     std::fclose(file);
   }
