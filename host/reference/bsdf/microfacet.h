@@ -18,10 +18,11 @@ class Microfacets {
   Microfacets(const Roughness& roughness, const ShadingPoint& point)
       : Microfacets(roughness.distribution, point.scalar(roughness.alpha_u), point.scalar(roughness.alpha_v)) {}
 
-  /// A normal m visible from w (on either side; m.z > 0), Heitz 2018, "Sampling the GGX Distribution of Visible
-  /// Normals". Beckmann normals are sampled with the GGX of the same alpha: the ratio of the two stays below 2.7.
+  /// A normal m visible from w (on either side; m.z > 0): Heitz 2018, "Sampling the GGX Distribution of Visible
+  /// Normals"; Heitz and d'Eon 2014, "Importance Sampling Microfacet-Based BSDFs with the Distribution of Visible
+  /// Normals", for Beckmann.
   dvec3 sample(const dvec3& w, const dvec2& u) const;
-  /// Density of `sample` w.r.t. solid angle of m.
+  /// Density of `sample` w.r.t. solid angle of m: G1 D (w.m) / |w.z|.
   double pdf(const dvec3& w, const dvec3& m) const;
 
   double d(const dvec3& m) const { return distribution_ == MicrofacetDistribution::kGgx ? ggx_d(m) : beckmann_d(m); }
@@ -30,6 +31,8 @@ class Microfacets {
   double g(const dvec3& wo, const dvec3& wi, const dvec3& m) const { return g1(wo, m) * g1(wi, m); }
 
  private:
+  dvec3 sample_ggx(const dvec3& w, const dvec2& u) const;       // unit roughness, w.z >= 0
+  dvec3 sample_beckmann(const dvec3& w, const dvec2& u) const;  // the same; the normal's z is 1
   double ggx_d(const dvec3& m) const;
   double beckmann_d(const dvec3& m) const;
   double ggx_lambda(const dvec3& w) const;

@@ -32,9 +32,7 @@ double mean_over_visible_normals(const Microfacets& microfacets, const dvec3& wo
   double sum = 0;
   for (int i = 0; i < kSteps; ++i) {
     for (int j = 0; j < kSteps; ++j) {
-      const dvec3 m = microfacets.sample(wo, {(i + 0.5) / kSteps, (j + 0.5) / kSteps});
-      const double density = microfacets.pdf(wo, m);  // of the sample; that of the visible normals is below
-      if (density > 0) sum += value(m) * microfacets.g1(wo, m) * glm::dot(wo, m) * microfacets.d(m) / wo.z / density;
+      sum += value(microfacets.sample(wo, {(i + 0.5) / kSteps, (j + 0.5) / kSteps}));
     }
   }
   return sum / sqr(kSteps);
