@@ -35,7 +35,8 @@ dmat4 unit_shape_to_world(const Shape& shape) {
   return shape.to_world;
 }
 
-std::optional<AnalyticHit> intersect_unit_shape(const Shape& shape, const dvec3& o, const dvec3& d, double t_max) {
+std::optional<AnalyticHit> intersect_unit_shape(const Shape& shape, const dvec3& o, const dvec3& d,
+                                                double t_max) {
   const bool rectangle = std::holds_alternative<RectangleShape>(shape.kind);
   if (rectangle || std::holds_alternative<DiskShape>(shape.kind)) {
     const double t = -o.z / d.z;
@@ -49,7 +50,8 @@ std::optional<AnalyticHit> intersect_unit_shape(const Shape& shape, const dvec3&
   const dvec3 only(1, 1, sphere ? 1 : 0);  // a cylinder is a circle in x and y
   const dvec3 oo = o * only, dd = d * only;
   const double a = glm::dot(dd, dd), b = glm::dot(oo, dd), c = glm::dot(oo, oo) - 1;
-  // Haines et al. 2019, "Precision Improvements for Ray/Sphere Intersection": b^2 - a c from the nearest point.
+  // Haines et al. 2019, "Precision Improvements for Ray/Sphere Intersection": b^2 - a c from the nearest
+  // point.
   const dvec3 nearest = oo - dd * (b / a);
   const auto roots = solve_quadratic(a, b, c, a * (1 - glm::dot(nearest, nearest)));
   if (!roots) return std::nullopt;
@@ -71,7 +73,10 @@ UnitShapePoint unit_shape_point(const Shape& shape, const dvec3& p) {
   const double phi = azimuth(p.x, p.y), r = std::hypot(p.x, p.y);
   const dvec2 e = r > 0 ? dvec2(p.x, p.y) / r : dvec2(1, 0);  // (cos phi, sin phi)
   if (std::holds_alternative<DiskShape>(shape.kind)) {
-    return {{0, 0, 1}, {r, phi / (2 * kPi)}, {e, 0}, {-e.y, e.x, 0}};  // dp_dv as Mitsuba has it: not scaled by 2 pi r
+    return {{0, 0, 1},
+            {r, phi / (2 * kPi)},
+            {e, 0},
+            {-e.y, e.x, 0}};  // dp_dv as Mitsuba has it: not scaled by 2 pi r
   }
   if (std::holds_alternative<SphereShape>(shape.kind)) {
     const double theta = std::atan2(r, p.z);

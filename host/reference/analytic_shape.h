@@ -22,8 +22,8 @@ struct AnalyticHit {
   dvec3 p;  // on the unit shape: z = 0, or of radius 1 to rounding
 };
 /// Nearest hit of origin + t direction with 0 < t < t_max, in the space of the unit shape.
-std::optional<AnalyticHit> intersect_unit_shape(const Shape& shape, const dvec3& origin, const dvec3& direction,
-                                                double t_max);
+std::optional<AnalyticHit> intersect_unit_shape(const Shape& shape, const dvec3& origin,
+                                                const dvec3& direction, double t_max);
 
 /// Normal, parameters and derivatives at a point of the unit shape.
 struct UnitShapePoint {

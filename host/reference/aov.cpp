@@ -9,9 +9,9 @@ namespace tachylite::reference {
 
 Aovs::Aovs(const std::vector<std::string>& specifications) {
   static const std::map<std::string, std::string> kSuffixes{
-      {"albedo", "RGB"},    {"depth", "T"},     {"position", "XYZ"}, {"uv", "UV"},
-      {"geo_normal", "XYZ"}, {"sh_normal", "XYZ"}, {"normal", "XYZ"}, {"dp_du", "XYZ"},
-      {"dp_dv", "XYZ"},     {"prim_index", "I"}, {"shape_index", "I"}};
+      {"albedo", "RGB"},     {"depth", "T"},       {"position", "XYZ"}, {"uv", "UV"},
+      {"geo_normal", "XYZ"}, {"sh_normal", "XYZ"}, {"normal", "XYZ"},   {"dp_du", "XYZ"},
+      {"dp_dv", "XYZ"},      {"prim_index", "I"},  {"shape_index", "I"}};
   for (const std::string& list : specifications) {
     std::istringstream items(list);
     for (std::string item; std::getline(items, item, ',');) {

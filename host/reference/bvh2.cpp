@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kBins = 16;
 constexpr uint32_t kLeafItems = 2;  // always a leaf
-constexpr int kMaxDepth = 60;       // then halves by count, which ends within 32 more levels: the stack suffices
+constexpr int kMaxDepth = 60;  // then halves by count, which ends within 32 more levels: the stack suffices
 
 struct Split {
   int axis = -1;
@@ -16,8 +16,8 @@ struct Split {
   double cost = kInfinity;  // half area times items, both sides
 };
 
-Split best_split(const std::vector<Box>& boxes, const std::vector<uint32_t>& items, uint32_t first, uint32_t count,
-                 const Box& centres) {
+Split best_split(const std::vector<Box>& boxes, const std::vector<uint32_t>& items, uint32_t first,
+                 uint32_t count, const Box& centres) {
   Split best;
   for (int axis = 0; axis < 3; ++axis) {
     const double low = centres.low[axis], extent = centres.high[axis] - low;
@@ -76,12 +76,14 @@ Bvh2::Bvh2(const std::vector<Box>& boxes) {
     }
     Node node{box, task.first, task.count, 0};
 
-    // Split where the heuristic gains over a leaf; by count where it finds nothing but the leaf would be large.
+    // Split where the heuristic gains over a leaf; by count where it finds nothing but the leaf would be
+    // large.
     if (task.count > kLeafItems) {
       const Split split = best_split(boxes, items_, task.first, task.count, centres);
       const auto begin = items_.begin() + task.first, end = begin + task.count;
       auto middle = begin;
-      if (split.axis >= 0 && task.depth < kMaxDepth && split.cost + box.half_area() < task.count * box.half_area()) {
+      if (split.axis >= 0 && task.depth < kMaxDepth &&
+          split.cost + box.half_area() < task.count * box.half_area()) {
         node.axis = split.axis;
         middle = std::partition(begin, end,
                                 [&](uint32_t i) { return boxes[i].centre()[split.axis] < split.position; });

@@ -67,7 +67,8 @@ class Bvh2 {
     int axis = 0;
   };
 
-  /// Ize 2013, "Robust BVH Ray Traversal": the far distance is widened by the rounding of its three operations.
+  /// Ize 2013, "Robust BVH Ray Traversal": the far distance is widened by the rounding of its three
+  /// operations.
   static bool enters(const Box& box, const dvec3& origin, const dvec3& inverse, double t_max) {
     double near = 0, far = t_max;
     for (int k = 0; k < 3; ++k) {

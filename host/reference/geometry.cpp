@@ -5,8 +5,8 @@
 namespace tachylite::reference {
 namespace {
 
-/// Roundings of a hit point and of the distance that a ray finds to its own surface are a few units of 2^-53 of the
-/// primitive's coordinates; this is 4096 of them.
+/// Roundings of a hit point and of the distance that a ray finds to its own surface are a few units of 2^-53
+/// of the primitive's coordinates; this is 4096 of them.
 constexpr double kRelativeError = 0x1p-41;
 
 dvec3 interpolate(const std::vector<glm::vec3>& values, const glm::uvec3& v, const dvec3& b) {
@@ -33,7 +33,8 @@ Geometry::Geometry(const Scene& scene) : scene_(scene) {
       bounds.grow(box);
     };
     if (world.mesh) {
-      for (const glm::vec3& p : world.mesh->positions) world.positions.push_back(transform_point(world.to_world, p));
+      for (const glm::vec3& p : world.mesh->positions)
+        world.positions.push_back(transform_point(world.to_world, p));
       for (uint32_t i = 0; i < world.mesh->triangles.size(); ++i) {
         const glm::uvec3 v = world.mesh->triangles[i];
         const dvec3 a = world.positions[v.x], b = world.positions[v.y], c = world.positions[v.z];
@@ -49,7 +50,9 @@ Geometry::Geometry(const Scene& scene) : scene_(scene) {
       for (int corner = 0; corner < 8; ++corner) {
         dvec3 p((corner & 1) ? 1 : -1, (corner & 2) ? 1 : -1, (corner & 4) ? 1 : -1);
         if (std::holds_alternative<CylinderShape>(shape.kind)) p.z = std::max(p.z, 0.0);
-        if (std::holds_alternative<RectangleShape>(shape.kind) || std::holds_alternative<DiskShape>(shape.kind)) p.z = 0;
+        if (std::holds_alternative<RectangleShape>(shape.kind) ||
+            std::holds_alternative<DiskShape>(shape.kind))
+          p.z = 0;
         box.grow(transform_point(world.to_world, p));
       }
       add(0, box);
@@ -99,7 +102,8 @@ std::optional<SurfacePoint> Geometry::intersect(const Ray& ray, bool without_emi
   Primitive primitive{};
   bvh_.traverse(ray, [&](uint32_t item, double& t_max) {
     const Primitive& candidate = primitives_[item];
-    if (without_emitters && scene_.shapes[static_cast<size_t>(candidate.shape)].emitter != kNone) return false;
+    if (without_emitters && scene_.shapes[static_cast<size_t>(candidate.shape)].emitter != kNone)
+      return false;
     if (const auto hit = intersect_primitive(candidate, ray, t_max)) {
       nearest = hit;
       primitive = candidate;
@@ -169,7 +173,8 @@ SurfacePoint Geometry::triangle_point(const Primitive& primitive, const dvec3& b
 
 SurfacePoint Geometry::analytic_point(const Primitive& primitive, const dvec3& object_point) const {
   const WorldShape& world = shapes_[static_cast<size_t>(primitive.shape)];
-  const UnitShapePoint unit = unit_shape_point(scene_.shapes[static_cast<size_t>(primitive.shape)], object_point);
+  const UnitShapePoint unit =
+      unit_shape_point(scene_.shapes[static_cast<size_t>(primitive.shape)], object_point);
   SurfacePoint point;
   point.p = transform_point(world.to_world, object_point);
   point.n_g = glm::normalize(world.normal_to_world * unit.normal);

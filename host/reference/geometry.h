@@ -1,8 +1,8 @@
 #pragma once
 
-// The shapes of the scene in world space, and rays against them. No scene epsilon: hit points are put onto their
-// primitive (from barycentrics, or reprojected), so that they are off by a few roundings of the primitive's
-// coordinates, and rays leave from beyond that error, on the side they go to.
+// The shapes of the scene in world space, and rays against them. No scene epsilon: hit points are put onto
+// their primitive (from barycentrics, or reprojected), so that they are off by a few roundings of the
+// primitive's coordinates, and rays leave from beyond that error, on the side they go to.
 
 #include <memory>
 #include <optional>
@@ -19,8 +19,8 @@ namespace tachylite::reference {
 struct SurfacePoint {
   int shape = kNone;
   dvec3 p{0};
-  double t = 0;      // along the ray that found it
-  double error = 0;  // bound of the distance of p from the surface, in scene units, with a large margin
+  double t = 0;        // along the ray that found it
+  double error = 0;    // bound of the distance of p from the surface, in scene units, with a large margin
   dvec3 n_g{0, 0, 1};  // geometric unit normal, with flip_normals; emission and interior/exterior go by it
   TextureCoordinates at;
   dvec3 dp_du{0}, dp_dv{0};
@@ -44,7 +44,9 @@ class Geometry {
   /// The nearest hit with 0 < t < ray.t_max. `skip` is asked for each candidate shape: true means not there.
   std::optional<SurfacePoint> intersect(const Ray& ray) const { return intersect(ray, false); }
   /// The same, blind to shapes that carry an emitter (hide_emitters).
-  std::optional<SurfacePoint> intersect_without_emitters(const Ray& ray) const { return intersect(ray, true); }
+  std::optional<SurfacePoint> intersect_without_emitters(const Ray& ray) const {
+    return intersect(ray, true);
+  }
   bool occluded(const Ray& ray) const;
 
   double area(int shape) const { return shapes_[static_cast<size_t>(shape)].area; }
@@ -73,7 +75,8 @@ class Geometry {
   };
 
   std::optional<SurfacePoint> intersect(const Ray& ray, bool without_emitters) const;
-  std::optional<Candidate> intersect_primitive(const Primitive& primitive, const Ray& ray, double t_max) const;
+  std::optional<Candidate> intersect_primitive(const Primitive& primitive, const Ray& ray,
+                                               double t_max) const;
   SurfacePoint surface_point(const Primitive& primitive, const dvec3& where) const;
   SurfacePoint triangle_point(const Primitive& primitive, const dvec3& barycentrics) const;
   SurfacePoint analytic_point(const Primitive& primitive, const dvec3& object_point) const;

@@ -1,9 +1,13 @@
-// Path tracing (Kajiya 1986) with next-event estimation, as Mitsuba's integrators path and direct (max_depth 2):
-//  - depth counts surfaces, null and masked ones included; an emitter hit at depth d counts if d < max_depth, light
+// Path tracing (Kajiya 1986) with next-event estimation, as Mitsuba's integrators path and direct (max_depth
+// 2):
+//  - depth counts surfaces, null and masked ones included; an emitter hit at depth d counts if d < max_depth,
+//  light
 //    is sampled at depth d if d + 1 < max_depth;
-//  - shadow rays are blocked by every surface, null and masked ones included; so a direction sampled from a delta or
+//  - shadow rays are blocked by every surface, null and masked ones included; so a direction sampled from a
+//  delta or
 //    null lobe counts what it hits with full weight;
-//  - Russian roulette from rr_depth on, with probability min(max throughput * eta^2, 0.95), eta the product of the
+//  - Russian roulette from rr_depth on, with probability min(max throughput * eta^2, 0.95), eta the product
+//  of the
 //    relative indices crossed: the throughput without the factors 1/eta^2 of radiance;
 //  - hide_emitters: camera rays pass shapes with emitters, and see no environment.
 // Media are ignored.
@@ -38,7 +42,8 @@ dvec3 trace_path(const World& world, const Ray& camera_ray, Random& random, Worl
     // Emission.
     if (!hit) {
       const dvec3 le = hide ? dvec3(0) : world.lights.environment(ray.direction);
-      if (!is_black(le)) radiance += throughput * le * mis_weight(world.lights.pdf_environment(ray.direction));
+      if (!is_black(le))
+        radiance += throughput * le * mis_weight(world.lights.pdf_environment(ray.direction));
       break;
     }
     const dvec3 le = world.lights.emitted(*hit, -ray.direction);

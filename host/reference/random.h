@@ -6,8 +6,8 @@
 
 namespace tachylite::reference {
 
-/// Independent uniform numbers, one stream a path: SplitMix64 (Steele, Lea and Flood 2014), started at a hash of
-/// (seed, pixel, sample), so that an image does not depend on threads, tiles or the order of samples.
+/// Independent uniform numbers, one stream a path: SplitMix64 (Steele, Lea and Flood 2014), started at a hash
+/// of (seed, pixel, sample), so that an image does not depend on threads, tiles or the order of samples.
 class Random {
  public:
   Random(uint64_t seed, uint64_t pixel, uint64_t sample) {

@@ -20,7 +20,10 @@ struct ReferenceRenderer::Impl {
   };
 
   Impl(const Scene& scene, int sensor_index, uint32_t seed_in, const std::vector<std::string>& aov_list)
-      : world(scene), sensor(scene.sensors[static_cast<size_t>(sensor_index)]), seed(seed_in), aovs(aov_list) {
+      : world(scene),
+        sensor(scene.sensors[static_cast<size_t>(sensor_index)]),
+        seed(seed_in),
+        aovs(aov_list) {
     const Film& film = sensor.film;
     pixels.resize(static_cast<size_t>(film.crop_width) * static_cast<size_t>(film.crop_height));
     for (Pixel& pixel : pixels) pixel.aovs.resize(aovs.channel_names().size());
@@ -137,8 +140,7 @@ ReferenceImage render_reference(const Scene& scene, const ReferenceOptions& opti
     const uint64_t pass = std::min<uint64_t>(4, wanted - done);
     renderer.add_samples(options.first_sample + done, pass);
     done += pass;
-    if (options.progress &&
-        !options.progress({done, wanted, timer.seconds(), renderer.relative_error()})) {
+    if (options.progress && !options.progress({done, wanted, timer.seconds(), renderer.relative_error()})) {
       break;
     }
   }
@@ -162,7 +164,8 @@ Image to_image(const ReferenceImage& reference, bool moment) {
     add("variance." + name, [&](size_t i) { return variance[i][c]; });
     if (moment) add("m2_" + name, [&](size_t i) { return variance[i][c] * (n - 1) + sqr(mean[i][c]); });
   }
-  for (const ReferenceImage::Channel& aov : reference.aovs) add(aov.name, [&](size_t i) { return aov.values[i]; });
+  for (const ReferenceImage::Channel& aov : reference.aovs)
+    add(aov.name, [&](size_t i) { return aov.values[i]; });
   return image;
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
-// The CPU reference: a plain path tracer in double precision that judges the device kernels. It shares the Scene with
-// them, nothing else: ray tracing, materials, lights, media and random numbers are its own, one path at a time.
-// How the scene's words are meant stands in the headers beside this one: bsdf/, light/, medium/, texture/, sensor.h,
-// path.cpp and volpath.cpp.
+// The CPU reference: a plain path tracer in double precision that judges the device kernels. It shares the
+// Scene with them, nothing else: ray tracing, materials, lights, media and random numbers are its own, one
+// path at a time. How the scene's words are meant stands in the headers beside this one: bsdf/, light/,
+// medium/, texture/, sensor.h, path.cpp and volpath.cpp.
 
 #include <cstdint>
 #include <functional>
@@ -22,25 +22,25 @@ namespace tachylite {
 /// A result of the reference. Pixels are row by row from the top of the crop window, linear Rec.709.
 struct ReferenceImage {
   int width = 0, height = 0;
-  uint64_t samples = 0;               // per pixel
-  std::vector<glm::dvec3> mean;       // radiance
-  std::vector<glm::dvec3> variance;   // of the pixel's mean, from its samples; 0 with fewer than two
+  uint64_t samples = 0;              // per pixel
+  std::vector<glm::dvec3> mean;      // radiance
+  std::vector<glm::dvec3> variance;  // of the pixel's mean, from its samples; 0 with fewer than two
   struct Channel {
     std::string name;  // "albedo.R", ...
     std::vector<double> values;
   };
-  std::vector<Channel> aovs;          // mean over samples of the first hit's value, 0 where nothing was hit
-  uint64_t nonfinite = 0;             // samples dropped (counted as 0)
+  std::vector<Channel> aovs;  // mean over samples of the first hit's value, 0 where nothing was hit
+  uint64_t nonfinite = 0;     // samples dropped (counted as 0)
   uint64_t closest_rays = 0, shadow_rays = 0;
 };
 
-/// Renders sample after sample. Sample s of a pixel depends on seed, pixel and s alone: the image is the same for any
-/// number of threads, and ranges of samples can be rendered apart.
+/// Renders sample after sample. Sample s of a pixel depends on seed, pixel and s alone: the image is the same
+/// for any number of threads, and ranges of samples can be rendered apart.
 class ReferenceRenderer {
  public:
-  /// `scene` must outlive this. `aovs` as in Integrator::aovs ("type" or "name:type"), beside those of the scene:
-  /// albedo, depth, position, uv, geo_normal, sh_normal (or normal), dp_du, dp_dv, prim_index, shape_index.
-  /// Throws InputError on an unknown AOV or a sensor that the scene does not have.
+  /// `scene` must outlive this. `aovs` as in Integrator::aovs ("type" or "name:type"), beside those of the
+  /// scene: albedo, depth, position, uv, geo_normal, sh_normal (or normal), dp_du, dp_dv, prim_index,
+  /// shape_index. Throws InputError on an unknown AOV or a sensor that the scene does not have.
   explicit ReferenceRenderer(const Scene& scene, int sensor = 0, uint32_t seed = 0,
                              const std::vector<std::string>& aovs = {});
   ~ReferenceRenderer();
@@ -74,8 +74,8 @@ struct ReferenceOptions {
 /// Renders in passes of a few samples until all are done, time is up, or `progress` ends it.
 ReferenceImage render_reference(const Scene& scene, const ReferenceOptions& options);
 
-/// Channels R G B, variance.R/G/B, m2_R/G/B (mean square of a sample, where the scene's integrator is `moment`),
-/// and the AOVs.
+/// Channels R G B, variance.R/G/B, m2_R/G/B (mean square of a sample, where the scene's integrator is
+/// `moment`), and the AOVs.
 Image to_image(const ReferenceImage& image, bool moment = false);
 
 }  // namespace tachylite

@@ -3,8 +3,8 @@
 namespace tachylite::reference {
 namespace {
 
-/// Offset from the pixel's centre with the density of the filter. Mitsuba's gaussian is lowered to reach 0 at its
-/// radius: exp(-x^2 / (2 s^2)) - exp(-r^2 / (2 s^2)).
+/// Offset from the pixel's centre with the density of the filter. Mitsuba's gaussian is lowered to reach 0 at
+/// its radius: exp(-x^2 / (2 s^2)) - exp(-r^2 / (2 s^2)).
 double sample_filter(const Film& film, Random& random) {
   const double r = film.filter_radius;
   switch (film.filter) {

@@ -1,9 +1,13 @@
 // Volumetric path tracing, as Mitsuba's integrators volpath and volpathmis (one expectation):
-//  - depth counts surfaces and collisions in media, not null lobes (null, the open part of masks, thin dielectrics
+//  - depth counts surfaces and collisions in media, not null lobes (null, the open part of masks, thin
+//  dielectrics
 //    straight through); limits and Russian roulette as in path.cpp;
-//  - shadow rays pass null lobes, with their transmission, and media, with their transmittance; so what a ray hits
-//    after passing null lobes is weighted against light sampling from the last vertex that changed its direction;
-//  - the medium changes at every surface that names an interior or exterior one, to the one on the side that the
+//  - shadow rays pass null lobes, with their transmission, and media, with their transmittance; so what a ray
+//  hits
+//    after passing null lobes is weighted against light sampling from the last vertex that changed its
+//    direction;
+//  - the medium changes at every surface that names an interior or exterior one, to the one on the side that
+//  the
 //    ray goes to, scattered or not.
 
 #include "reference/medium/phase_function.h"
@@ -13,14 +17,16 @@ namespace tachylite::reference {
 namespace {
 
 /// The medium beyond a surface crossed or left in direction d.
-MediumIndex medium_behind(const World& world, const SurfacePoint& surface, const dvec3& d, MediumIndex current) {
+MediumIndex medium_behind(const World& world, const SurfacePoint& surface, const dvec3& d,
+                          MediumIndex current) {
   const Shape& shape = world.shape_of(surface);
   if (!shape.is_medium_boundary) return current;
   return glm::dot(surface.n_g, d) > 0 ? shape.exterior : shape.interior;
 }
 
 /// Transmission of a shadow ray through null lobes and media.
-dvec3 shadow_transmission(const World& world, Ray ray, MediumIndex medium, Random& random, World::Counters& counters) {
+dvec3 shadow_transmission(const World& world, Ray ray, MediumIndex medium, Random& random,
+                          World::Counters& counters) {
   dvec3 result(1);
   while (!is_black(result)) {
     ++counters.shadow_rays;
@@ -61,13 +67,15 @@ dvec3 trace_volpath(const World& world, const Ray& camera_ray, MediumIndex mediu
     return only_lights ? 0.0 : power_heuristic(previous_pdf, pdf_light);
   };
   /// Direct light at a vertex; scatter gives f |cos| and the density of sampling a direction.
-  const auto add_direct_light = [&](const dvec3& p, const auto& origin, const auto& medium_towards, const auto& scatter) {
+  const auto add_direct_light = [&](const dvec3& p, const auto& origin, const auto& medium_towards,
+                                    const auto& scatter) {
     const auto light = world.lights.sample_light(p, random);
     if (!light) return;
     const auto [f, pdf] = scatter(light->wi);
     if (is_black(f)) return;
     const Ray shadow = Lights::shadow_ray(origin(light->wi), *light);
-    const dvec3 transmission = shadow_transmission(world, shadow, medium_towards(light->wi), random, counters);
+    const dvec3 transmission =
+        shadow_transmission(world, shadow, medium_towards(light->wi), random, counters);
     const double weight = light->delta || only_lights ? 1 : power_heuristic(light->pdf, pdf);
     radiance += throughput * f * light->weight * transmission * weight;
   };
@@ -112,7 +120,8 @@ dvec3 trace_volpath(const World& world, const Ray& camera_ray, MediumIndex mediu
     // Emission.
     if (!hit) {
       const dvec3 le = hide ? dvec3(0) : world.lights.environment(ray.direction);
-      if (!is_black(le)) radiance += throughput * le * mis_weight(world.lights.pdf_environment(ray.direction));
+      if (!is_black(le))
+        radiance += throughput * le * mis_weight(world.lights.pdf_environment(ray.direction));
       break;
     }
     const dvec3 le = world.lights.emitted(*hit, -ray.direction);

@@ -19,7 +19,9 @@ struct World {
   Lights lights;
   Media media;
 
-  const Shape& shape_of(const SurfacePoint& surface) const { return scene.shapes[static_cast<size_t>(surface.shape)]; }
+  const Shape& shape_of(const SurfacePoint& surface) const {
+    return scene.shapes[static_cast<size_t>(surface.shape)];
+  }
   /// What the integrators count.
   struct Counters {
     uint64_t closest_rays = 0, shadow_rays = 0;

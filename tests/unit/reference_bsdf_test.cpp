@@ -19,7 +19,9 @@ struct Case {
   bool reciprocal = true;
   double eta = 1;  // below / above
 };
-void PrintTo(const Case& c, std::ostream* stream) { *stream << c.name; }
+void PrintTo(const Case& c, std::ostream* stream) {
+  *stream << c.name;
+}
 
 Roughness roughness(MicrofacetDistribution distribution, double alpha_u, double alpha_v) {
   return {distribution, alpha_u, alpha_v, true};
@@ -44,10 +46,13 @@ BsdfIndex add_case(const std::string& name, SceneBuilder& b) {
   if (name == "rough_diffuse") return b.add(RoughDiffuseBsdf{color, 0.6});
   if (name == "rough_diffuse_fast") return b.add(RoughDiffuseBsdf{color, 0.6, true});
   if (name == "rough_conductor_ggx") return b.add(RoughConductorBsdf{roughness(kGgx, 0.3, 0.3), eta, k});
-  if (name == "rough_conductor_anisotropic") return b.add(RoughConductorBsdf{roughness(kBeckmann, 0.5, 0.2), eta, k});
+  if (name == "rough_conductor_anisotropic")
+    return b.add(RoughConductorBsdf{roughness(kBeckmann, 0.5, 0.2), eta, k});
   if (name == "rough_dielectric_ggx") return b.add(RoughDielectricBsdf{1.5, roughness(kGgx, 0.4, 0.4)});
-  if (name == "rough_dielectric_beckmann") return b.add(RoughDielectricBsdf{1.3, roughness(kBeckmann, 0.4, 0.25)});
-  if (name == "rough_dielectric_inverted") return b.add(RoughDielectricBsdf{1 / 1.5, roughness(kBeckmann, 0.4, 0.4)});
+  if (name == "rough_dielectric_beckmann")
+    return b.add(RoughDielectricBsdf{1.3, roughness(kBeckmann, 0.4, 0.25)});
+  if (name == "rough_dielectric_inverted")
+    return b.add(RoughDielectricBsdf{1 / 1.5, roughness(kBeckmann, 0.4, 0.4)});
   if (name == "plastic") return b.add(PlasticBsdf{1.5, color});
   if (name == "plastic_nonlinear") return b.add(PlasticBsdf{1.9, color, 0.7, true});
   if (name == "rough_plastic") return b.add(RoughPlasticBsdf{1.5, roughness(kBeckmann, 0.3, 0.3), color});
@@ -74,9 +79,11 @@ BsdfIndex add_case(const std::string& name, SceneBuilder& b) {
   if (name == "blinn_phong") return b.add(BlinnPhongBsdf{color, dvec3(0.1, 0.4, 0.9), 20.0, std::nullopt});
   if (name == "microfacet") return b.add(MicrofacetBsdf{dvec3(0.4, 0.3, 0.2), 0.3, 1.5, 1});
   if (name == "paper") return b.add(PaperBsdf{color, 0.3});
-  if (name == "two_sided") return b.add(TwoSidedBsdf{add_case("rough_conductor_ggx", b), add_case("diffuse", b)});
+  if (name == "two_sided")
+    return b.add(TwoSidedBsdf{add_case("rough_conductor_ggx", b), add_case("diffuse", b)});
   if (name == "mask") return b.add(MaskBsdf{add_case("rough_plastic", b), 0.6});
-  if (name == "blend") return b.add(BlendBsdf{add_case("rough_dielectric_ggx", b), add_case("plastic", b), 0.4});
+  if (name == "blend")
+    return b.add(BlendBsdf{add_case("rough_dielectric_ggx", b), add_case("plastic", b), 0.4});
   if (name == "normal_map" || name == "normal_map_plain") {
     const bool options = name == "normal_map";
     const TextureIndex n = b.add_texture(flat_texture({0.6, 0.42, 0.95}));
@@ -162,7 +169,8 @@ TEST_P(ReferenceBsdf, SamplesItsDensityAndWeighsByIt) {
   }
 }
 
-/// f(wo, wi) / n(wo)^2 = f(wi, wo) / n(wi)^2, n the index of the side (Walter et al. 2007, eq. 3, for radiance).
+/// f(wo, wi) / n(wo)^2 = f(wi, wo) / n(wi)^2, n the index of the side (Walter et al. 2007, eq. 3, for
+/// radiance).
 TEST_P(ReferenceBsdf, IsReciprocal) {
   if (!GetParam().reciprocal) GTEST_SKIP() << "not by design";
   Random random(3, 0, 0);
@@ -178,7 +186,8 @@ TEST_P(ReferenceBsdf, IsReciprocal) {
   EXPECT_GT(compared, 300);
 }
 
-/// With all lobes, and the factor 1/eta^2 of radiance undone, no more comes back than went in: mean + 5 sigma.
+/// With all lobes, and the factor 1/eta^2 of radiance undone, no more comes back than went in: mean + 5
+/// sigma.
 TEST_P(ReferenceBsdf, ConservesEnergy) {
   if (GetParam().name == "principled") GTEST_SKIP() << "Burley's model gains energy at grazing angles";
   if (GetParam().name == "blinn_phong") GTEST_SKIP() << "as it is defined, it reflects up to 4 ks";
@@ -218,8 +227,9 @@ INSTANTIATE_TEST_SUITE_P(All, ReferenceBsdf, testing::ValuesIn(kCases),
 TEST(ReferenceFresnel, KnownValues) {
   EXPECT_NEAR(fresnel_dielectric(1, 1.5), 0.04, 1e-15);
   EXPECT_NEAR(fresnel_dielectric(-1, 1.5), 0.04, 1e-15);
-  EXPECT_NEAR(fresnel_dielectric(0.5, 1.5), 0.0891867, 1e-7);  // Born and Wolf: r_s^2 = .17697, r_p^2 = .00140
-  EXPECT_EQ(fresnel_dielectric(-0.5, 1.5), 1);                 // beyond the critical angle of 41.8 degrees
+  EXPECT_NEAR(fresnel_dielectric(0.5, 1.5), 0.0891867,
+              1e-7);                            // Born and Wolf: r_s^2 = .17697, r_p^2 = .00140
+  EXPECT_EQ(fresnel_dielectric(-0.5, 1.5), 1);  // beyond the critical angle of 41.8 degrees
   EXPECT_EQ(fresnel_dielectric(0.3, 1), 0);
   // k = 0 is a dielectric, k -> infinity a perfect mirror.
   for (const double c : {0.05, 0.3, 0.7, 1.0}) {

@@ -15,7 +15,8 @@ using namespace test;
 
 constexpr MicrofacetDistribution kBoth[] = {MicrofacetDistribution::kGgx, MicrofacetDistribution::kBeckmann};
 
-/// The integral of value(m) over the upper hemisphere: midpoint rule in the polar coordinates of the slopes over alpha.
+/// The integral of value(m) over the upper hemisphere: midpoint rule in the polar coordinates of the slopes
+/// over alpha.
 template <class Value>
 double integrate_normals(double alpha_u, double alpha_v, const Value& value) {
   constexpr int kRadii = 2000, kAngles = 200;
@@ -53,8 +54,8 @@ TEST(ReferenceMicrofacets, VisibleNormalsHaveTheirDensity) {
     for (const auto& [au, av] : {std::pair(0.4, 0.4), std::pair(0.2, 0.6), std::pair(1.0, 1.0)}) {
       const Microfacets f(distribution, au, av);
       const SphereBins bins({.polar_bins = 12, .azimuth_bins = 16, .order = 8, .omc_max = 1, .exponent = 2});
-      for (const dvec3& w : {dvec3(0, 0, 1), glm::normalize(dvec3(0.5, 0.3, 0.8)), glm::normalize(dvec3(-1, 0.4, 0.1)),
-                             glm::normalize(dvec3(0.5, 0.3, -0.4))}) {
+      for (const dvec3& w : {dvec3(0, 0, 1), glm::normalize(dvec3(0.5, 0.3, 0.8)),
+                             glm::normalize(dvec3(-1, 0.4, 0.1)), glm::normalize(dvec3(0.5, 0.3, -0.4))}) {
         std::vector<float> pdf;
         for (const glm::vec4& m : bins.quadrature_points()) {
           pdf.push_back(static_cast<float>(f.pdf(w, dvec3(m.x, m.y, m.z))));

@@ -62,9 +62,15 @@ struct SceneBuilder {
   }
 };
 
-inline dmat4 moved(const dvec3& by) { return glm::translate(dmat4(1), by); }
-inline dmat4 scaled(const dvec3& by) { return glm::scale(dmat4(1), by); }
-inline dmat4 turned(double degrees, const dvec3& axis) { return glm::rotate(dmat4(1), glm::radians(degrees), axis); }
+inline dmat4 moved(const dvec3& by) {
+  return glm::translate(dmat4(1), by);
+}
+inline dmat4 scaled(const dvec3& by) {
+  return glm::scale(dmat4(1), by);
+}
+inline dmat4 turned(double degrees, const dvec3& axis) {
+  return glm::rotate(dmat4(1), glm::radians(degrees), axis);
+}
 
 /// Running mean of a random variable.
 class Mean {
@@ -83,13 +89,14 @@ class Mean {
   double n_ = 0, sum_ = 0, squares_ = 0;
 };
 
-/// |z| < 5 has the level 6e-7 (two-sided, normal); a bias of 7.3 standard errors is seen with power 0.99. The slack
-/// is for quadrature and rounding. The standard error must be below `resolution`, else the test could not fail.
-#define EXPECT_MEAN(mean_object, expected, resolution)                                                   \
-  do {                                                                                                   \
-    const auto& mean_ = (mean_object);                                                                   \
-    EXPECT_LE(mean_.standard_error(), (resolution));                                                     \
-    EXPECT_NEAR(mean_.mean(), (expected), 5 * mean_.standard_error() + 1e-9 + 1e-4 * (resolution));      \
+/// |z| < 5 has the level 6e-7 (two-sided, normal); a bias of 7.3 standard errors is seen with power 0.99. The
+/// slack is for quadrature and rounding. The standard error must be below `resolution`, else the test could
+/// not fail.
+#define EXPECT_MEAN(mean_object, expected, resolution)                                              \
+  do {                                                                                              \
+    const auto& mean_ = (mean_object);                                                              \
+    EXPECT_LE(mean_.standard_error(), (resolution));                                                \
+    EXPECT_NEAR(mean_.mean(), (expected), 5 * mean_.standard_error() + 1e-9 + 1e-4 * (resolution)); \
   } while (0)
 
 /// Mean and standard error of one channel over all pixels of a rendering.

@@ -41,8 +41,12 @@ dvec3 perturbed_normal(const Kind&, const ShadingPoint&, const dvec3&) {
   return {0, 0, 1};
 }
 
-const BsdfKind& kind_of(const Scene& scene, BsdfIndex bsdf) { return scene.bsdfs[static_cast<size_t>(bsdf)].kind; }
-const BsdfKind& kind_of(const ShadingPoint& point, BsdfIndex bsdf) { return kind_of(point.materials.scene(), bsdf); }
+const BsdfKind& kind_of(const Scene& scene, BsdfIndex bsdf) {
+  return scene.bsdfs[static_cast<size_t>(bsdf)].kind;
+}
+const BsdfKind& kind_of(const ShadingPoint& point, BsdfIndex bsdf) {
+  return kind_of(point.materials.scene(), bsdf);
+}
 
 }  // namespace
 
@@ -65,8 +69,10 @@ ShadingPoint shading_point(const Materials& materials, const SurfacePoint& surfa
           frame.to_local(surface.dp_dv)};
 }
 
-std::optional<BsdfSample> sample_bsdf(BsdfIndex bsdf, const ShadingPoint& point, const dvec3& wo, Random& random) {
-  return std::visit([&](const auto& kind) { return sample_bsdf(kind, point, wo, random); }, kind_of(point, bsdf));
+std::optional<BsdfSample> sample_bsdf(BsdfIndex bsdf, const ShadingPoint& point, const dvec3& wo,
+                                      Random& random) {
+  return std::visit([&](const auto& kind) { return sample_bsdf(kind, point, wo, random); },
+                    kind_of(point, bsdf));
 }
 
 double pdf_bsdf(BsdfIndex bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi) {
@@ -78,7 +84,8 @@ dvec3 eval_bsdf(BsdfIndex bsdf, const ShadingPoint& point, const dvec3& wo, cons
 }
 
 dvec3 null_transmission(BsdfIndex bsdf, const ShadingPoint& point, const dvec3& wo) {
-  return std::visit([&](const auto& kind) { return null_transmission(kind, point, wo); }, kind_of(point, bsdf));
+  return std::visit([&](const auto& kind) { return null_transmission(kind, point, wo); },
+                    kind_of(point, bsdf));
 }
 
 dvec3 albedo_bsdf(BsdfIndex bsdf, const ShadingPoint& point) {
@@ -86,7 +93,8 @@ dvec3 albedo_bsdf(BsdfIndex bsdf, const ShadingPoint& point) {
 }
 
 dvec3 shading_normal(BsdfIndex bsdf, const ShadingPoint& point, const dvec3& wo) {
-  return std::visit([&](const auto& kind) { return perturbed_normal(kind, point, wo); }, kind_of(point, bsdf));
+  return std::visit([&](const auto& kind) { return perturbed_normal(kind, point, wo); },
+                    kind_of(point, bsdf));
 }
 
 bool has_smooth_lobe(const Scene& scene, BsdfIndex bsdf) {

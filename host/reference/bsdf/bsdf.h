@@ -1,14 +1,17 @@
 #pragma once
 
-// Materials. All directions are unit vectors in the local shading frame (z along the shading normal), pointing away
-// from the surface: wo to the viewer, wi to the light. (Mitsuba's plugins call these wi and wo.)
-//   sample_bsdf   a direction wi with weight = f |cos wi| / pdf of *all* smooth lobes of the material together, or
+// Materials. All directions are unit vectors in the local shading frame (z along the shading normal),
+// pointing away from the surface: wo to the viewer, wi to the light. (Mitsuba's plugins call these wi and
+// wo.)
+//   sample_bsdf   a direction wi with weight = f |cos wi| / pdf of *all* smooth lobes of the material
+//   together, or
 //                 of one delta lobe (then weight = f / probability, and pdf is that probability)
 //   pdf_bsdf      density of sample_bsdf w.r.t. solid angle of wi, smooth lobes only (it integrates to the
 //                 probability of choosing one, less what is sampled below the horizon)
 //   eval_bsdf     f |cos wi| of the smooth lobes
-// Radiance is transported: crossing into relative index eta scales it by 1/eta^2. BSDFs go by the shading frame
-// only. A material of kind X has its overloads in bsdf/x.h; here are the switch over kinds, and what is common.
+// Radiance is transported: crossing into relative index eta scales it by 1/eta^2. BSDFs go by the shading
+// frame only. A material of kind X has its overloads in bsdf/x.h; here are the switch over kinds, and what is
+// common.
 
 #include <array>
 #include <optional>
@@ -59,7 +62,8 @@ struct BsdfSample {
 };
 
 /// Nothing when the sample is lost (below the horizon, absorbed): its contribution is 0.
-std::optional<BsdfSample> sample_bsdf(BsdfIndex bsdf, const ShadingPoint& point, const dvec3& wo, Random& random);
+std::optional<BsdfSample> sample_bsdf(BsdfIndex bsdf, const ShadingPoint& point, const dvec3& wo,
+                                      Random& random);
 double pdf_bsdf(BsdfIndex bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi);
 dvec3 eval_bsdf(BsdfIndex bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi);
 
@@ -67,15 +71,16 @@ dvec3 eval_bsdf(BsdfIndex bsdf, const ShadingPoint& point, const dvec3& wo, cons
 dvec3 null_transmission(BsdfIndex bsdf, const ShadingPoint& point, const dvec3& wo);
 /// Mitsuba's AOV albedo: the diffuse reflectance; for materials without one, pi times f at normal incidence.
 dvec3 albedo_bsdf(BsdfIndex bsdf, const ShadingPoint& point);
-/// Shading normal in the local frame after normal and bump maps (of the outermost adapter), for the AOV sh_normal.
+/// Shading normal in the local frame after normal and bump maps (of the outermost adapter), for the AOV
+/// sh_normal.
 dvec3 shading_normal(BsdfIndex bsdf, const ShadingPoint& point, const dvec3& wo);
 /// False when all lobes are delta or null: light sampling is pointless then.
 bool has_smooth_lobe(const Scene& scene, BsdfIndex bsdf);
 
 /// Ends sample_bsdf of a material whose lobes are all smooth: wi was sampled with the density pdf_bsdf.
 template <class Kind>
-std::optional<BsdfSample> finish_sample(const Kind& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi,
-                                        double eta = 1) {
+std::optional<BsdfSample> finish_sample(const Kind& bsdf, const ShadingPoint& point, const dvec3& wo,
+                                        const dvec3& wi, double eta = 1) {
   const double pdf = pdf_bsdf(bsdf, point, wo, wi);
   if (!(pdf > 0)) return std::nullopt;
   return BsdfSample{wi, eval_bsdf(bsdf, point, wo, wi) / pdf, pdf, Scattering::kSmooth, eta};

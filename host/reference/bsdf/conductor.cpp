@@ -11,7 +11,11 @@ std::optional<BsdfSample> sample_bsdf(const ConductorBsdf& bsdf, const ShadingPo
   return BsdfSample{{-wo.x, -wo.y, wo.z}, f * point.color(bsdf.specular_reflectance), 1, Scattering::kDelta};
 }
 
-double pdf_bsdf(const ConductorBsdf&, const ShadingPoint&, const dvec3&, const dvec3&) { return 0; }
-dvec3 eval_bsdf(const ConductorBsdf&, const ShadingPoint&, const dvec3&, const dvec3&) { return dvec3(0); }
+double pdf_bsdf(const ConductorBsdf&, const ShadingPoint&, const dvec3&, const dvec3&) {
+  return 0;
+}
+dvec3 eval_bsdf(const ConductorBsdf&, const ShadingPoint&, const dvec3&, const dvec3&) {
+  return dvec3(0);
+}
 
 }  // namespace tachylite::reference

@@ -19,7 +19,11 @@ std::optional<BsdfSample> sample_bsdf(const DielectricBsdf& bsdf, const ShadingP
                     eta};
 }
 
-double pdf_bsdf(const DielectricBsdf&, const ShadingPoint&, const dvec3&, const dvec3&) { return 0; }
-dvec3 eval_bsdf(const DielectricBsdf&, const ShadingPoint&, const dvec3&, const dvec3&) { return dvec3(0); }
+double pdf_bsdf(const DielectricBsdf&, const ShadingPoint&, const dvec3&, const dvec3&) {
+  return 0;
+}
+dvec3 eval_bsdf(const DielectricBsdf&, const ShadingPoint&, const dvec3&, const dvec3&) {
+  return dvec3(0);
+}
 
 }  // namespace tachylite::reference

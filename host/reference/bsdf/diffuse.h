@@ -5,8 +5,8 @@
 namespace tachylite::reference {
 
 /// f = reflectance / pi, seen and lit from the side of the shading normal only.
-std::optional<BsdfSample> sample_bsdf(const DiffuseBsdf& bsdf, const ShadingPoint& point,
-                                      const dvec3& wo, Random& random);
+std::optional<BsdfSample> sample_bsdf(const DiffuseBsdf& bsdf, const ShadingPoint& point, const dvec3& wo,
+                                      Random& random);
 double pdf_bsdf(const DiffuseBsdf& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi);
 dvec3 eval_bsdf(const DiffuseBsdf& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi);
 

@@ -45,7 +45,8 @@ double Microfacets::g1(const dvec3& w, const dvec3& m) const {
   return 1 / (1 + (distribution_ == MicrofacetDistribution::kGgx ? ggx_lambda(w) : beckmann_lambda(w)));
 }
 
-/// The visible part of the upper unit hemisphere is a half disk and a half ellipse, seen along the stretched w.
+/// The visible part of the upper unit hemisphere is a half disk and a half ellipse, seen along the stretched
+/// w.
 dvec3 Microfacets::sample_ggx(const dvec3& w, const dvec2& u) const {
   const Frame frame = frame_around(w, dvec3(0, 0, 1));
   const dvec2 disk = sample_disk(u);

@@ -38,7 +38,9 @@ double shadowing(bool use, const Perturbed& perturbed, const dvec3& wi) {
   return 2 / (1 + std::sqrt(1 + alpha2 * (sqr(wi.x) + sqr(wi.y)) / sqr(wi.z)));
 }
 
-bool sides_agree(const Perturbed& perturbed, const dvec3& w) { return w.z * glm::dot(w, perturbed.frame.n) > 0; }
+bool sides_agree(const Perturbed& perturbed, const dvec3& w) {
+  return w.z * glm::dot(w, perturbed.frame.n) > 0;
+}
 
 template <class Kind>
 std::optional<BsdfSample> sample_perturbed(const Kind& bsdf, const ShadingPoint& point, const dvec3& wo,
@@ -102,8 +104,12 @@ dvec3 null_transmission(const BumpMapBsdf& bsdf, const ShadingPoint& point, cons
   return null_transmission(bsdf.child, point, wo);
 }
 
-dvec3 albedo_bsdf(const NormalMapBsdf& bsdf, const ShadingPoint& point) { return albedo_bsdf(bsdf.child, point); }
-dvec3 albedo_bsdf(const BumpMapBsdf& bsdf, const ShadingPoint& point) { return albedo_bsdf(bsdf.child, point); }
+dvec3 albedo_bsdf(const NormalMapBsdf& bsdf, const ShadingPoint& point) {
+  return albedo_bsdf(bsdf.child, point);
+}
+dvec3 albedo_bsdf(const BumpMapBsdf& bsdf, const ShadingPoint& point) {
+  return albedo_bsdf(bsdf.child, point);
+}
 
 dvec3 perturbed_normal(const NormalMapBsdf& bsdf, const ShadingPoint& point, const dvec3& wo) {
   return perturb(bsdf, point, wo).frame.n;

@@ -118,7 +118,8 @@ dvec3 eval_bsdf(const PrincipledBsdf& bsdf, const ShadingPoint& point, const dve
 
   if (!reflection) {
     const double eta = boundary.eta_ti;
-    return glm::sqrt(p.base_color) * (p.bsdf * (1 - f_d) * dg * std::abs(mo * mi / wo.z) / sqr(mo + eta * mi));
+    return glm::sqrt(p.base_color) *
+           (p.bsdf * (1 - f_d) * dg * std::abs(mo * mi / wo.z) / sqr(mo + eta * mi));
   }
   if (!front) return dvec3(p.bsdf * f_d * dg / (4 * std::abs(wo.z)));
 
@@ -132,8 +133,8 @@ dvec3 eval_bsdf(const PrincipledBsdf& bsdf, const ShadingPoint& point, const dve
   // Clearcoat.
   if (p.clearcoat > 0 && sides_agree) {
     const Microfacets masking(MicrofacetDistribution::kGgx, 0.25, 0.25);
-    value += 0.25 * p.clearcoat * schlick_fresnel(dvec3(0.04), mo, bsdf.eta) * gtr1_d(p.clearcoat_alpha(), m) *
-             masking.g(wo, wi, m) * wi.z;
+    value += 0.25 * p.clearcoat * schlick_fresnel(dvec3(0.04), mo, bsdf.eta) *
+             gtr1_d(p.clearcoat_alpha(), m) * masking.g(wo, wi, m) * wi.z;
   }
 
   // Diffuse and sheen.
@@ -146,6 +147,8 @@ dvec3 eval_bsdf(const PrincipledBsdf& bsdf, const ShadingPoint& point, const dve
   return value;
 }
 
-dvec3 albedo_bsdf(const PrincipledBsdf& bsdf, const ShadingPoint& point) { return point.color(bsdf.base_color); }
+dvec3 albedo_bsdf(const PrincipledBsdf& bsdf, const ShadingPoint& point) {
+  return point.color(bsdf.base_color);
+}
 
 }  // namespace tachylite::reference

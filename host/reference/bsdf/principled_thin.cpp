@@ -25,16 +25,20 @@ struct Parameters {
         p_diffuse_transmission((1 - spec_trans) * diff_trans) {}
   Microfacets reflecting() const { return principled_microfacets(roughness, anisotropic); }
   /// Burley 2015, figure 15: a thin slab of lower index blurs less.
-  Microfacets transmitting() const { return principled_microfacets((0.65 * eta - 0.35) * roughness, anisotropic); }
+  Microfacets transmitting() const {
+    return principled_microfacets((0.65 * eta - 0.35) * roughness, anisotropic);
+  }
 };
 
 /// Turns the surface so that wo is above it; the model is the same from both sides.
-dvec3 flip_to(double cos_o, const dvec3& w) { return cos_o < 0 ? -w : w; }
+dvec3 flip_to(double cos_o, const dvec3& w) {
+  return cos_o < 0 ? -w : w;
+}
 
 }  // namespace
 
-std::optional<BsdfSample> sample_bsdf(const PrincipledThinBsdf& bsdf, const ShadingPoint& point, const dvec3& wo_given,
-                                      Random& random) {
+std::optional<BsdfSample> sample_bsdf(const PrincipledThinBsdf& bsdf, const ShadingPoint& point,
+                                      const dvec3& wo_given, Random& random) {
   if (wo_given.z == 0) return std::nullopt;
   const dvec3 wo = flip_to(wo_given.z, wo_given);
   const Parameters p(bsdf, point);

@@ -5,8 +5,8 @@
 
 namespace tachylite::reference {
 
-std::optional<BsdfSample> sample_bsdf(const RoughConductorBsdf& bsdf, const ShadingPoint& point, const dvec3& wo,
-                                      Random& random) {
+std::optional<BsdfSample> sample_bsdf(const RoughConductorBsdf& bsdf, const ShadingPoint& point,
+                                      const dvec3& wo, Random& random) {
   if (wo.z <= 0) return std::nullopt;
   const dvec3 m = Microfacets(bsdf.roughness, point).sample(wo, random.uniform2());
   return finish_sample(bsdf, point, wo, reflect(wo, m));
@@ -23,7 +23,8 @@ dvec3 eval_bsdf(const RoughConductorBsdf& bsdf, const ShadingPoint& point, const
   const dvec3 m = glm::normalize(wo + wi);
   const Microfacets microfacets(bsdf.roughness, point);
   const dvec3 f = fresnel_conductor(glm::dot(wo, m), point.color(bsdf.eta), point.color(bsdf.k));
-  return f * point.color(bsdf.specular_reflectance) * (microfacets.d(m) * microfacets.g(wo, wi, m) / (4 * wo.z));
+  return f * point.color(bsdf.specular_reflectance) *
+         (microfacets.d(m) * microfacets.g(wo, wi, m) / (4 * wo.z));
 }
 
 }  // namespace tachylite::reference

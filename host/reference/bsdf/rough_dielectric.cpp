@@ -6,7 +6,8 @@
 namespace tachylite::reference {
 namespace {
 
-/// The microfacet that takes wo to wi by reflection (same side) or refraction, m.z > 0 (Walter et al., eqs. 13, 16).
+/// The microfacet that takes wo to wi by reflection (same side) or refraction, m.z > 0 (Walter et al., eqs.
+/// 13, 16).
 dvec3 half_vector(double eta, const dvec3& wo, const dvec3& wi) {
   const bool reflection = wo.z * wi.z > 0;
   const dvec3 m = glm::normalize(wo + wi * (reflection ? 1 : (wo.z > 0 ? eta : 1 / eta)));
@@ -15,8 +16,8 @@ dvec3 half_vector(double eta, const dvec3& wo, const dvec3& wi) {
 
 }  // namespace
 
-std::optional<BsdfSample> sample_bsdf(const RoughDielectricBsdf& bsdf, const ShadingPoint& point, const dvec3& wo,
-                                      Random& random) {
+std::optional<BsdfSample> sample_bsdf(const RoughDielectricBsdf& bsdf, const ShadingPoint& point,
+                                      const dvec3& wo, Random& random) {
   if (wo.z == 0) return std::nullopt;
   const dvec3 m = Microfacets(bsdf.roughness, point).sample(wo, random.uniform2());
   const DielectricBoundary boundary = dielectric_boundary(glm::dot(wo, m), bsdf.eta);
@@ -26,7 +27,8 @@ std::optional<BsdfSample> sample_bsdf(const RoughDielectricBsdf& bsdf, const Sha
   return finish_sample(bsdf, point, wo, wi, reflection ? 1 : boundary.eta_ti);
 }
 
-double pdf_bsdf(const RoughDielectricBsdf& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi) {
+double pdf_bsdf(const RoughDielectricBsdf& bsdf, const ShadingPoint& point, const dvec3& wo,
+                const dvec3& wi) {
   if (wo.z * wi.z == 0) return 0;
   const dvec3 m = half_vector(bsdf.eta, wo, wi);
   const double mo = glm::dot(wo, m), mi = glm::dot(wi, m);
@@ -38,7 +40,8 @@ double pdf_bsdf(const RoughDielectricBsdf& bsdf, const ShadingPoint& point, cons
   return (1 - f) * pdf_m * sqr(eta) * std::abs(mi) / sqr(mo + eta * mi);  // eq. 17
 }
 
-dvec3 eval_bsdf(const RoughDielectricBsdf& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi) {
+dvec3 eval_bsdf(const RoughDielectricBsdf& bsdf, const ShadingPoint& point, const dvec3& wo,
+                const dvec3& wi) {
   if (wo.z * wi.z == 0) return dvec3(0);
   const dvec3 m = half_vector(bsdf.eta, wo, wi);
   const double mo = glm::dot(wo, m), mi = glm::dot(wi, m);
@@ -48,7 +51,8 @@ dvec3 eval_bsdf(const RoughDielectricBsdf& bsdf, const ShadingPoint& point, cons
   if (wo.z * wi.z > 0) return point.color(bsdf.specular_reflectance) * (f * dg / (4 * std::abs(wo.z)));
   // eq. 21 times |cos_i|, over eta^2
   const double eta = boundary.eta_ti;
-  return point.color(bsdf.specular_transmittance) * ((1 - f) * dg * std::abs(mo * mi / wo.z) / sqr(mo + eta * mi));
+  return point.color(bsdf.specular_transmittance) *
+         ((1 - f) * dg * std::abs(mo * mi / wo.z) / sqr(mo + eta * mi));
 }
 
 }  // namespace tachylite::reference

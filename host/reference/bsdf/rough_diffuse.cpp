@@ -2,8 +2,8 @@
 
 namespace tachylite::reference {
 
-std::optional<BsdfSample> sample_bsdf(const RoughDiffuseBsdf& bsdf, const ShadingPoint& point, const dvec3& wo,
-                                      Random& random) {
+std::optional<BsdfSample> sample_bsdf(const RoughDiffuseBsdf& bsdf, const ShadingPoint& point,
+                                      const dvec3& wo, Random& random) {
   return finish_sample(bsdf, point, wo, sample_cosine_hemisphere(random.uniform2()));
 }
 

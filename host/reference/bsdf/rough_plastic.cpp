@@ -25,7 +25,8 @@ double specular_probability(const RoughPlasticBsdf& bsdf, const ShadingPoint& po
   return s + d > 0 ? s / (s + d) : 0;
 }
 
-/// Mean of value(m) over the microfacets seen from wo, by the midpoint rule over the two numbers that choose them.
+/// Mean of value(m) over the microfacets seen from wo, by the midpoint rule over the two numbers that choose
+/// them.
 template <class Value>
 double mean_over_visible_normals(const Microfacets& microfacets, const dvec3& wo, const Value& value) {
   constexpr int kSteps = 64;
@@ -71,8 +72,8 @@ RoughPlasticTables make_rough_plastic_tables(const RoughPlasticBsdf& bsdf) {
   return tables;
 }
 
-std::optional<BsdfSample> sample_bsdf(const RoughPlasticBsdf& bsdf, const ShadingPoint& point, const dvec3& wo,
-                                      Random& random) {
+std::optional<BsdfSample> sample_bsdf(const RoughPlasticBsdf& bsdf, const ShadingPoint& point,
+                                      const dvec3& wo, Random& random) {
   if (wo.z <= 0) return std::nullopt;
   const bool specular = random.uniform() < specular_probability(bsdf, point, wo.z);
   const dvec2 u = random.uniform2();

@@ -12,8 +12,8 @@ double sheet_reflectance(const ThinDielectricBsdf& bsdf, const dvec3& wo) {
 
 }  // namespace
 
-std::optional<BsdfSample> sample_bsdf(const ThinDielectricBsdf& bsdf, const ShadingPoint& point, const dvec3& wo,
-                                      Random& random) {
+std::optional<BsdfSample> sample_bsdf(const ThinDielectricBsdf& bsdf, const ShadingPoint& point,
+                                      const dvec3& wo, Random& random) {
   const double r = sheet_reflectance(bsdf, wo);
   if (random.uniform() < r) {
     return BsdfSample{{-wo.x, -wo.y, wo.z}, point.color(bsdf.specular_reflectance), r, Scattering::kDelta};
@@ -21,8 +21,12 @@ std::optional<BsdfSample> sample_bsdf(const ThinDielectricBsdf& bsdf, const Shad
   return BsdfSample{-wo, point.color(bsdf.specular_transmittance), 1 - r, Scattering::kNull};
 }
 
-double pdf_bsdf(const ThinDielectricBsdf&, const ShadingPoint&, const dvec3&, const dvec3&) { return 0; }
-dvec3 eval_bsdf(const ThinDielectricBsdf&, const ShadingPoint&, const dvec3&, const dvec3&) { return dvec3(0); }
+double pdf_bsdf(const ThinDielectricBsdf&, const ShadingPoint&, const dvec3&, const dvec3&) {
+  return 0;
+}
+dvec3 eval_bsdf(const ThinDielectricBsdf&, const ShadingPoint&, const dvec3&, const dvec3&) {
+  return dvec3(0);
+}
 
 dvec3 null_transmission(const ThinDielectricBsdf& bsdf, const ShadingPoint& point, const dvec3& wo) {
   return point.color(bsdf.specular_transmittance) * (1 - sheet_reflectance(bsdf, wo));

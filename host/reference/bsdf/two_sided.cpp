@@ -3,7 +3,9 @@
 namespace tachylite::reference {
 namespace {
 
-dvec3 mirror(const dvec3& w) { return {w.x, w.y, -w.z}; }
+dvec3 mirror(const dvec3& w) {
+  return {w.x, w.y, -w.z};
+}
 
 }  // namespace
 
@@ -20,9 +22,12 @@ double pdf_bsdf(const TwoSidedBsdf& bsdf, const ShadingPoint& point, const dvec3
 }
 
 dvec3 eval_bsdf(const TwoSidedBsdf& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi) {
-  return wo.z >= 0 ? eval_bsdf(bsdf.front, point, wo, wi) : eval_bsdf(bsdf.back, point, mirror(wo), mirror(wi));
+  return wo.z >= 0 ? eval_bsdf(bsdf.front, point, wo, wi)
+                   : eval_bsdf(bsdf.back, point, mirror(wo), mirror(wi));
 }
 
-dvec3 albedo_bsdf(const TwoSidedBsdf& bsdf, const ShadingPoint& point) { return albedo_bsdf(bsdf.front, point); }
+dvec3 albedo_bsdf(const TwoSidedBsdf& bsdf, const ShadingPoint& point) {
+  return albedo_bsdf(bsdf.front, point);
+}
 
 }  // namespace tachylite::reference

@@ -5,8 +5,8 @@
 namespace tachylite::reference {
 
 /// `front` seen from the front; from behind `back`, with both directions mirrored at the surface (z -> -z).
-std::optional<BsdfSample> sample_bsdf(const TwoSidedBsdf& bsdf, const ShadingPoint& point,
-                                      const dvec3& wo, Random& random);
+std::optional<BsdfSample> sample_bsdf(const TwoSidedBsdf& bsdf, const ShadingPoint& point, const dvec3& wo,
+                                      Random& random);
 double pdf_bsdf(const TwoSidedBsdf& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi);
 dvec3 eval_bsdf(const TwoSidedBsdf& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi);
 dvec3 albedo_bsdf(const TwoSidedBsdf& bsdf, const ShadingPoint& point);

@@ -2,7 +2,8 @@
 
 namespace tachylite::reference {
 
-dvec3 emitted_area(const AreaEmitter& emitter, const Scene& scene, const SurfacePoint& surface, const dvec3& wo) {
+dvec3 emitted_area(const AreaEmitter& emitter, const Scene& scene, const SurfacePoint& surface,
+                   const dvec3& wo) {
   if (glm::dot(surface.frame.n, wo) <= 0) return dvec3(0);
   return eval_color(scene, emitter.radiance, surface.at);
 }

@@ -42,8 +42,8 @@ Envmap::Place Envmap::place(const dvec3& direction) const {
 
 dvec3 Envmap::radiance(const dvec3& direction) const {
   const auto [x, y, f] = place(direction);
-  return glm::mix(glm::mix(texel(x, y), texel(x + 1, y), f.x), glm::mix(texel(x, y + 1), texel(x + 1, y + 1), f.x),
-                  f.y);
+  return glm::mix(glm::mix(texel(x, y), texel(x + 1, y), f.x),
+                  glm::mix(texel(x, y + 1), texel(x + 1, y + 1), f.x), f.y);
 }
 
 dvec3 Envmap::sample_direction(Random& random) const {

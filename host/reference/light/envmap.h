@@ -8,11 +8,11 @@
 
 namespace tachylite::reference {
 
-/// Plugin envmap. For d = inverse(to_world) direction: u = atan2(d.x, -d.z) / 2pi, v = acos(d.y) / pi. Columns have
-/// their centres at u = (x + 0.5) / W and repeat; rows lie *on* v = y / (H - 1): row 0 is the zenith (+y), row H-1
-/// the nadir. Bilinear between them.
-/// Sampling: a cell between four texels with probability proportional to their mean luminance times the cell's
-/// solid angle, uniform in u and cos(theta) within it; so the density is constant on a cell.
+/// Plugin envmap. For d = inverse(to_world) direction: u = atan2(d.x, -d.z) / 2pi, v = acos(d.y) / pi.
+/// Columns have their centres at u = (x + 0.5) / W and repeat; rows lie *on* v = y / (H - 1): row 0 is the
+/// zenith (+y), row H-1 the nadir. Bilinear between them. Sampling: a cell between four texels with
+/// probability proportional to their mean luminance times the cell's solid angle, uniform in u and cos(theta)
+/// within it; so the density is constant on a cell.
 class Envmap {
  public:
   explicit Envmap(const EnvironmentEmitter& emitter);

@@ -26,7 +26,8 @@ std::optional<LightSample> Lights::sample_light(const dvec3& receiver, Random& r
     sample = sample_area_light(*area, emitter.shape, geometry_, receiver, random);
   } else if (const auto* constant = std::get_if<ConstantEmitter>(&emitter.kind)) {
     const double pdf = 1 / (4 * kPi);
-    sample = LightSample{sample_sphere(random.uniform2()), constant->radiance / pdf, pdf, false, std::nullopt};
+    sample =
+        LightSample{sample_sphere(random.uniform2()), constant->radiance / pdf, pdf, false, std::nullopt};
   } else if (const Envmap* envmap = envmaps_[index].get()) {
     const dvec3 wi = envmap->sample_direction(random);
     const double pdf = envmap->pdf_direction(wi);
@@ -67,7 +68,8 @@ double Lights::pdf_surface(const dvec3& receiver, const SurfacePoint& surface) c
 dvec3 Lights::environment(const dvec3& direction) const {
   dvec3 sum(0);
   for (size_t i = 0; i < envmaps_.size(); ++i) {
-    if (const auto* constant = std::get_if<ConstantEmitter>(&scene_.emitters[i].kind)) sum += constant->radiance;
+    if (const auto* constant = std::get_if<ConstantEmitter>(&scene_.emitters[i].kind))
+      sum += constant->radiance;
     if (envmaps_[i]) sum += envmaps_[i]->radiance(direction);
   }
   return sum;

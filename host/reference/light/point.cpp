@@ -16,7 +16,8 @@ std::optional<LightSample> sample_point_light(const PointEmitter& emitter, const
   return towards(emitter.position, receiver, emitter.intensity / glm::dot(d, d));
 }
 
-std::optional<LightSample> sample_spot_light(const SpotEmitter& emitter, const Scene& scene, const dvec3& receiver) {
+std::optional<LightSample> sample_spot_light(const SpotEmitter& emitter, const Scene& scene,
+                                             const dvec3& receiver) {
   const dvec3 position(emitter.to_world[3]);
   const dvec3 d = receiver - position;
   const dvec3 local = glm::normalize(glm::inverse(dmat3(emitter.to_world)) * d);
@@ -46,8 +47,8 @@ std::optional<LightSample> sample_projector_light(const ProjectorEmitter& emitte
   const double half_width = local.z * std::tan(0.5 * emitter.x_fov);
   const dvec2 uv = 0.5 - 0.5 * dvec2(local.x, local.y * aspect) / half_width;
   if (!(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1)) return std::nullopt;
-  const dvec3 irradiance =
-      emitter.irradiance != kNone ? eval_texture(scene, emitter.irradiance, {.uv = uv}) : emitter.irradiance_value;
+  const dvec3 irradiance = emitter.irradiance != kNone ? eval_texture(scene, emitter.irradiance, {.uv = uv})
+                                                       : emitter.irradiance_value;
   const double cos_theta = local.z / glm::length(local);
   return towards(dvec3(emitter.to_world[3]), receiver,
                  irradiance * (kPi * emitter.scale / (sqr(local.z) * cos_theta)));

@@ -5,9 +5,9 @@
 
 namespace tachylite::reference {
 
-/// Value of a volume at a point of the world: the constant, or the grid over the unit cube of its own space mapped by
-/// to_world (with use_grid_bbox the box written in the file comes first). Voxel centres lie at (i + 0.5) / n;
-/// trilinear or nearest, clamped (or wrapped) outside. One channel counts for all three.
+/// Value of a volume at a point of the world: the constant, or the grid over the unit cube of its own space
+/// mapped by to_world (with use_grid_bbox the box written in the file comes first). Voxel centres lie at (i +
+/// 0.5) / n; trilinear or nearest, clamped (or wrapped) outside. One channel counts for all three.
 class GridVolume {
  public:
   explicit GridVolume(const Volume& volume);

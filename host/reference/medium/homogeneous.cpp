@@ -16,7 +16,8 @@ std::optional<double> sample_homogeneous(const HomogeneousMedium& medium, double
   const double sigma = medium.sigma_t[channel];
   const double t = sigma > 0 ? -std::log1p(-random.uniform()) / sigma : kInfinity;
 
-  // The common factor exp(-sigma_min t) of all channels that matter cancels, and without it nothing underflows.
+  // The common factor exp(-sigma_min t) of all channels that matter cancels, and without it nothing
+  // underflows.
   double sigma_min = kInfinity;
   for (int c = 0; c < 3; ++c) {
     if (p[c] > 0) sigma_min = std::min(sigma_min, medium.sigma_t[c]);

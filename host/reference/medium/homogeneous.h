@@ -7,7 +7,8 @@
 
 namespace tachylite::reference {
 
-/// Distance of the next collision within t_max, or none; updates the throughput as Media::sample_free_flight says.
+/// Distance of the next collision within t_max, or none; updates the throughput as Media::sample_free_flight
+/// says.
 std::optional<double> sample_homogeneous(const HomogeneousMedium& medium, double t_max, dvec3& throughput,
                                          Random& random);
 inline dvec3 transmittance_homogeneous(const HomogeneousMedium& medium, double distance) {

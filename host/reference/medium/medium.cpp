@@ -16,7 +16,8 @@ Interval clip(const Ray& ray, const dvec3& low, const dvec3& high) {
       if (ray.origin[k] < low[k] || ray.origin[k] > high[k]) return {1, 0};
       continue;
     }
-    const double a = (low[k] - ray.origin[k]) / ray.direction[k], b = (high[k] - ray.origin[k]) / ray.direction[k];
+    const double a = (low[k] - ray.origin[k]) / ray.direction[k],
+                 b = (high[k] - ray.origin[k]) / ray.direction[k];
     result = {std::max(result.begin, std::min(a, b)), std::min(result.end, std::max(a, b))};
   }
   return result;
@@ -31,14 +32,15 @@ Media::Media(const Scene& scene) : scene_(scene) {
       grids_.push_back(nullptr);
       continue;
     }
-    auto grids = std::make_unique<Grids>(
-        Grids{GridVolume(heterogeneous->sigma_t), GridVolume(heterogeneous->albedo), heterogeneous->scale, 0});
+    auto grids = std::make_unique<Grids>(Grids{GridVolume(heterogeneous->sigma_t),
+                                               GridVolume(heterogeneous->albedo), heterogeneous->scale, 0});
     grids->majorant = grids->scale * grids->sigma_t.maximum();
     grids_.push_back(std::move(grids));
   }
 }
 
-FreeFlight Media::sample_free_flight(MediumIndex medium, const Ray& ray, dvec3& throughput, Random& random) const {
+FreeFlight Media::sample_free_flight(MediumIndex medium, const Ray& ray, dvec3& throughput,
+                                     Random& random) const {
   const auto index = static_cast<size_t>(medium);
   if (!grids_[index]) {
     const auto& homogeneous = std::get<HomogeneousMedium>(scene_.media[index].kind);
@@ -69,7 +71,8 @@ dvec3 Media::transmittance(MediumIndex medium, const Ray& ray, Random& random) c
   const auto index = static_cast<size_t>(medium);
   const double length = glm::length(ray.direction);
   if (!grids_[index]) {
-    return transmittance_homogeneous(std::get<HomogeneousMedium>(scene_.media[index].kind), ray.t_max * length);
+    return transmittance_homogeneous(std::get<HomogeneousMedium>(scene_.media[index].kind),
+                                     ray.t_max * length);
   }
   const Grids& g = *grids_[index];
   const Interval inside = clip(ray, g.sigma_t.box_low(), g.sigma_t.box_high());

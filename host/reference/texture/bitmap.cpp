@@ -6,7 +6,9 @@ namespace tachylite::reference {
 namespace {
 
 /// IEC 61966-2-1.
-double decode_srgb(double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4); }
+double decode_srgb(double x) {
+  return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+}
 
 double decode_byte(uint8_t byte, TexelFormat format) {
   static const std::array<double, 256> decoded = [] {
@@ -62,7 +64,8 @@ dvec3 texel_color(const Bitmap& bitmap, TexelFormat format, int x, int y) {
   dvec3 color;
   for (size_t c = 0; c < 3; ++c) {
     const size_t i = first + (bitmap.channels >= 3 ? c : 0);
-    color[static_cast<int>(c)] = bitmap.floats.empty() ? decode_byte(bitmap.bytes[i], format) : double{bitmap.floats[i]};
+    color[static_cast<int>(c)] =
+        bitmap.floats.empty() ? decode_byte(bitmap.bytes[i], format) : double{bitmap.floats[i]};
   }
   return color;
 }
@@ -76,11 +79,13 @@ dvec3 eval_bitmap(const BitmapTexture& texture, const dvec2& uv) {
     return texel_color(bitmap, texture.format, x, y);
   }
   const Corners c = corners_around(texture, uv);
-  return glm::mix(glm::mix(c.texel[0][0], c.texel[0][1], c.f.x), glm::mix(c.texel[1][0], c.texel[1][1], c.f.x), c.f.y);
+  return glm::mix(glm::mix(c.texel[0][0], c.texel[0][1], c.f.x),
+                  glm::mix(c.texel[1][0], c.texel[1][1], c.f.x), c.f.y);
 }
 
 dvec2 eval_bitmap_gradient(const BitmapTexture& texture, const dvec2& uv) {
-  if (texture.filter == FilterType::kNearest || !(std::abs(uv.x) < 1e9 && std::abs(uv.y) < 1e9)) return dvec2(0);
+  if (texture.filter == FilterType::kNearest || !(std::abs(uv.x) < 1e9 && std::abs(uv.y) < 1e9))
+    return dvec2(0);
   const Corners c = corners_around(texture, uv);
   const double h00 = luminance(c.texel[0][0]), h01 = luminance(c.texel[0][1]);
   const double h10 = luminance(c.texel[1][0]), h11 = luminance(c.texel[1][1]);

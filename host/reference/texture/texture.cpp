@@ -13,7 +13,8 @@ dvec3 eval_kind(const CheckerboardTexture& texture, const dvec2& uv, const Textu
   return eval_checkerboard(texture, uv);
 }
 
-/// vertex_NAME is interpolated with the barycentrics, face_NAME is constant on a triangle; 0 where the mesh has none.
+/// vertex_NAME is interpolated with the barycentrics, face_NAME is constant on a triangle; 0 where the mesh
+/// has none.
 dvec3 eval_kind(const MeshAttributeTexture& texture, const dvec2&, const TextureCoordinates& at) {
   if (!at.mesh) return dvec3(0);
   for (const MeshAttribute& attribute : at.mesh->attributes) {
@@ -21,7 +22,8 @@ dvec3 eval_kind(const MeshAttributeTexture& texture, const dvec2&, const Texture
     const bool per_face = texture.name.starts_with("face_");
     auto value = [&](size_t item, int channel) {
       const int c = std::min(channel, attribute.channels - 1);
-      return double{attribute.values[item * static_cast<size_t>(attribute.channels) + static_cast<size_t>(c)]};
+      return double{
+          attribute.values[item * static_cast<size_t>(attribute.channels) + static_cast<size_t>(c)]};
     };
     dvec3 result(0);
     for (int c = 0; c < 3; ++c) {

@@ -1,8 +1,8 @@
 #pragma once
 
-// Texture lookups. A colour is a linear Rec.709 triple; a scalar asked of a three-channel texture is its luminance,
-// taken of each texel before filtering (the same as after it, filtering being linear); the checkerboard swaps its
-// colours as a scalar.
+// Texture lookups. A colour is a linear Rec.709 triple; a scalar asked of a three-channel texture is its
+// luminance, taken of each texel before filtering (the same as after it, filtering being linear); the
+// checkerboard swaps its colours as a scalar.
 
 #include "reference/math.h"
 #include "scene/scene.h"
@@ -18,7 +18,8 @@ struct TextureCoordinates {
 };
 
 dvec3 eval_texture(const Scene& scene, TextureIndex texture, const TextureCoordinates& at);
-/// d(scalar)/d(u, v) of the interpolated texels, through to_uv. Zero for nearest lookup and for other plugins.
+/// d(scalar)/d(u, v) of the interpolated texels, through to_uv. Zero for nearest lookup and for other
+/// plugins.
 dvec2 eval_texture_gradient(const Scene& scene, TextureIndex texture, const TextureCoordinates& at);
 
 dvec3 eval_color(const Scene& scene, const ColorInput& input, const TextureCoordinates& at);
