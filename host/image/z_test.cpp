@@ -37,16 +37,18 @@ double shrink(double difference, double tolerance) {
   return std::copysign(std::max(0.0, std::abs(difference) - tolerance), difference);
 }
 
-/// Sums over a rectangle of pixels.
+/// A sum of variances and its degrees of freedom.
+struct Variance {
+  double sum = 0, square = 0;  // of v, of v^2
+  void add(double v, double v_square) { sum += v, square += v_square; }
+  double dof() const { return square > 0 ? sum * sum / square : kInfinity; }
+};
+
+/// Sums over a square of pixels.
 struct Sums {
-  double difference = 0, reference = 0;  // sum of a - b, sum of |b|
-  double variance = 0, square = 0;       // sum of v, sum of v^2
+  double difference = 0, reference = 0, power = 0;  // of a - b, |b|, b^2
+  Variance variance;
   double pixels = 0;
-  void operator+=(const Sums& s) {
-    difference += s.difference, reference += s.reference;
-    variance += s.variance, square += s.square, pixels += s.pixels;
-  }
-  double dof() const { return square > 0 ? variance * variance / square : kInfinity; }
 };
 
 /// Sums over the squares of edge `edge` that tile the image, row by row.
@@ -64,8 +66,12 @@ Tiling sum_tiles(int width, int height, int edge, const std::vector<float>& a, c
       const size_t i = static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
       Sums& sums = tiling.tiles[static_cast<size_t>(y / edge) * static_cast<size_t>(tiling.columns) +
                                 static_cast<size_t>(x / edge)];
-      const double v = variance[i];
-      sums += Sums{double{a[i]} - double{b[i]}, std::abs(double{b[i]}), v, v * v, 1};
+      const double v = variance[i], reference = b[i];
+      sums.difference += a[i] - reference;
+      sums.reference += std::abs(reference);
+      sums.power += reference * reference;
+      sums.variance.add(v, v * v);
+      sums.pixels += 1;
     }
   }
   return tiling;
@@ -108,27 +114,36 @@ MeanTest test_mean(const Tiling& groups, double scale, double alpha, double tole
   return test;
 }
 
-/// Variance of the tile's sum and its degrees of freedom: its own, or that of its 3x3 neighbours if larger.
-std::pair<double, double> pooled_variance(const Tiling& tiling, int column, int row, bool exact) {
-  const Sums& own = tiling.tiles[static_cast<size_t>(row) * static_cast<size_t>(tiling.columns) +
-                                 static_cast<size_t>(column)];
-  if (exact) return {own.variance, kInfinity};
-  Sums pool;
-  for (int r = std::max(0, row - 1); r <= std::min(tiling.rows - 1, row + 1); ++r)
-    for (int c = std::max(0, column - 1); c <= std::min(tiling.columns - 1, column + 1); ++c)
-      pool += tiling.tiles[static_cast<size_t>(r) * static_cast<size_t>(tiling.columns) + static_cast<size_t>(c)];
-  const double pooled = pool.variance * own.pixels / pool.pixels;
-  return own.variance > pooled ? std::pair{own.variance, own.dof()} : std::pair{pooled, pool.dof()};
+/// Variance of the tile's sum and its degrees of freedom: its own, or that of its 3x3 neighbours if larger. Noise is
+/// about proportional to radiance, so it is v / (b^2 + dark^2) that neighbours are taken to have in common.
+std::pair<double, double> pooled_variance(const Tiling& tiling, int column, int row, double dark, bool exact) {
+  const auto tile = [&](int c, int r) -> const Sums& {
+    return tiling.tiles[static_cast<size_t>(r) * static_cast<size_t>(tiling.columns) + static_cast<size_t>(c)];
+  };
+  const auto power = [dark](const Sums& s) { return s.power + s.pixels * dark * dark; };
+  const Sums& own = tile(column, row);
+  if (exact || power(own) == 0) return {own.variance.sum, kInfinity};
+  Variance pool;
+  int count = 0;
+  for (int r = std::max(0, row - 1); r <= std::min(tiling.rows - 1, row + 1); ++r) {
+    for (int c = std::max(0, column - 1); c <= std::min(tiling.columns - 1, column + 1); ++c, ++count) {
+      const Sums& other = tile(c, r);
+      const double unit = power(other);
+      pool.add(other.variance.sum / unit, other.variance.square / (unit * unit));
+    }
+  }
+  const double pooled = pool.sum / count * power(own);
+  return own.variance.sum > pooled ? std::pair{own.variance.sum, own.variance.dof()} : std::pair{pooled, pool.dof()};
 }
 
 /// Adds the blocks of channel `channel` to `test`, and their detectable biases to `detectable`.
-void test_blocks(const Tiling& tiling, int channel, double scale, double alpha, const DifferenceVariance& variance,
+void test_blocks(const Tiling& tiling, int channel, double dark, double alpha, const DifferenceVariance& variance,
                  double tolerance, BlockTest& test, std::vector<double>& detectable) {
   for (int row = 0; row < tiling.rows; ++row) {
     for (int column = 0; column < tiling.columns; ++column) {
       const Sums& own = tiling.tiles[static_cast<size_t>(row) * static_cast<size_t>(tiling.columns) +
                                      static_cast<size_t>(column)];
-      const auto [summed, dof] = pooled_variance(tiling, column, row, variance.exact);
+      const auto [summed, dof] = pooled_variance(tiling, column, row, dark, variance.exact);
       const double deviation = std::sqrt(summed);
       const double shrunk = shrink(own.difference, tolerance * own.reference);
       const double t = shrunk == 0 ? 0 : deviation > 0 ? shrunk / deviation : std::copysign(kInfinity, shrunk);
@@ -139,7 +154,7 @@ void test_blocks(const Tiling& tiling, int channel, double scale, double alpha, 
         test.x = column * tiling.edge, test.y = row * tiling.edge, test.channel = channel;
         test.difference = own.difference / std::max(own.reference, 1e-30);
       }
-      const double unit = std::max(own.reference, scale * own.pixels);
+      const double unit = std::max(own.reference, dark * own.pixels);
       if (unit > 0)
         detectable.push_back(tolerance + (two_sided_limit(alpha, dof) + kPowerQuantile) * deviation / unit);
     }
@@ -148,12 +163,14 @@ void test_blocks(const Tiling& tiling, int channel, double scale, double alpha, 
 
 /// Counts the pixels of one channel that lie beyond the limit of `alpha`.
 uint64_t count_pixels_beyond(int width, int height, const std::vector<float>& a, const std::vector<float>& b,
-                             const std::vector<float>& variance, bool exact, double alpha, double tolerance) {
+                             const std::vector<float>& variance, double dark, bool exact, double alpha,
+                             double tolerance) {
   constexpr int kReach = 2;  // neighbourhoods of 5x5
   const double normal_limit = two_sided_limit(alpha, kInfinity);
   const auto index = [width](int x, int y) {
     return static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
   };
+  const auto power = [&](size_t i) { return double{b[i]} * double{b[i]} + dark * dark; };
   uint64_t beyond = 0;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
@@ -162,14 +179,16 @@ uint64_t count_pixels_beyond(int width, int height, const std::vector<float>& a,
       double v = variance[i], dof = kInfinity;
       // Student's tails are the heavier: what the normal limit and the pixel's own variance pass needs no pool.
       if (shrunk * shrunk <= normal_limit * normal_limit * v) continue;
-      if (!exact) {
-        Sums pool;
-        for (int py = std::max(0, y - kReach); py <= std::min(height - 1, y + kReach); ++py)
-          for (int px = std::max(0, x - kReach); px <= std::min(width - 1, x + kReach); ++px) {
-            const double w = variance[index(px, py)];
-            pool += Sums{0, 0, w, w * w, 1};
+      if (!exact && power(i) > 0) {
+        Variance pool;
+        int count = 0;
+        for (int py = std::max(0, y - kReach); py <= std::min(height - 1, y + kReach); ++py) {
+          for (int px = std::max(0, x - kReach); px <= std::min(width - 1, x + kReach); ++px, ++count) {
+            const double w = variance[index(px, py)] / power(index(px, py));
+            pool.add(w, w * w);
           }
-        v = std::max(v, pool.variance / pool.pixels);
+        }
+        v = std::max(v, pool.sum / count * power(i));
         dof = pool.dof();
       }
       beyond += v <= 0 || two_sided_p(shrunk / std::sqrt(v), dof) < alpha;
@@ -218,8 +237,8 @@ ZTest z_test(int width, int height, const std::vector<std::vector<float>>& a,
     const Tiling blocks = sum_tiles(width, height, options.block, a[c], b[c], variance);
     test_blocks(blocks, static_cast<int>(c), 0.05 * scale, block_alpha, given, options.tolerance, test.blocks,
                 detectable);
-    test.pixels.beyond += count_pixels_beyond(width, height, a[c], b[c], variance, given.exact, pixel_alpha,
-                                              options.tolerance);
+    test.pixels.beyond += count_pixels_beyond(width, height, a[c], b[c], variance, 0.05 * scale, given.exact,
+                                              pixel_alpha, options.tolerance);
   }
   test.blocks_agree = test.blocks.beyond == 0;
   test.pixels_agree = test.pixels.share() <= kPixelShare;

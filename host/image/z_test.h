@@ -10,8 +10,8 @@
 //    itself, so variance layers that over-estimate (those of Owen-sampled renders do) cost it no power.
 //  - blocks, per block and channel: the sum of the difference over the root of the summed variance, against
 //    Student's t with (sum v)^2 / sum v^2 degrees of freedom (Satterthwaite 1946, with squared estimates for the
-//    fourth moments: too few, never too many). The variance is the larger of the block's own and that of its 3x3
-//    neighbours: a block that missed a rare bright path must not cry wolf.
+//    fourth moments: too few, never too many). The variance is the larger of the block's own and that which its 3x3
+//    neighbours, scaled to its brightness, suggest: a block that missed a rare bright path must not cry wolf.
 //  - pixels: the same with neighbourhoods of 5x5 pixels; rejects when more than kPixelShare of all pixels and
 //    channels lie beyond their Sidak limit, as Mitsuba's render tests do.
 

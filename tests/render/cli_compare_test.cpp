@@ -106,7 +106,7 @@ TEST_F(CliCompare, DifferentSizesAreRefused) {
 }
 
 TEST_F(CliCompare, VerifyAgrees) {
-  const ProgramResult result = tachylite({"verify", kScene, "-D", "size=24"});
+  const ProgramResult result = tachylite({"verify", kScene, "-D", "size=48"});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   EXPECT_EQ(result.out.substr(result.out.size() - 6), "agree\n") << result.out;
 }
