@@ -18,11 +18,16 @@ std::string format_bytes(uint64_t bytes) {
 
 std::string device_type(VkPhysicalDeviceType type) {
   switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return "integrated GPU";
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return "discrete GPU";
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return "virtual GPU";
-    case VK_PHYSICAL_DEVICE_TYPE_CPU: return "CPU";
-    default: return "other";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return "integrated GPU";
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return "discrete GPU";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return "virtual GPU";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return "CPU";
+    default:
+      return "other";
   }
 }
 
@@ -44,7 +49,8 @@ vulkan::DeviceOptions device_options(const std::string& selector) {
 void check_validation(const vulkan::Device& device) {
   const std::vector<std::string> messages = device.validation_messages();
   if (!messages.empty())
-    throw RenderError(fmt::format("{} validation messages, the first: {}", messages.size(), messages.front()));
+    throw RenderError(
+        fmt::format("{} validation messages, the first: {}", messages.size(), messages.front()));
 }
 
 }  // namespace tachylite

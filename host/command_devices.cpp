@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "command_device.h"
 #include "base/error.h"
+#include "command_device.h"
 #include "vulkan/device.h"
 
 namespace tachylite {
@@ -17,10 +17,11 @@ int run_devices() {
     fmt::print("   memory {}, storage buffer {}, texel buffer {} texels, uniform buffer {}\n",
                format_bytes(device.device_memory), format_bytes(device.max_storage_buffer_range),
                device.max_texel_buffer_elements, format_bytes(device.max_uniform_buffer_range));
-    fmt::print("   subgroup {}, workgroup {} invocations, {} workgroups, push constants {} bytes, timestamps {}\n",
-               device.subgroup_size, device.max_workgroup_invocations, device.max_workgroup_count_x,
-               device.max_push_constants,
-               device.timestamp_period_ns > 0 ? fmt::format("{:g} ns", device.timestamp_period_ns) : "none");
+    fmt::print(
+        "   subgroup {}, workgroup {} invocations, {} workgroups, push constants {} bytes, timestamps {}\n",
+        device.subgroup_size, device.max_workgroup_invocations, device.max_workgroup_count_x,
+        device.max_push_constants,
+        device.timestamp_period_ns > 0 ? fmt::format("{:g} ns", device.timestamp_period_ns) : "none");
     if (!device.unusable.empty()) fmt::print("   cannot be used: {}\n", device.unusable);
   }
   if (!any) throw RenderError("no Vulkan device can run this program");

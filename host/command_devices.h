@@ -2,8 +2,8 @@
 
 namespace tachylite {
 
-/// Lists the Vulkan devices with driver, type and the limits that matter; on stdout. Returns the exit code: 1 when no
-/// device can run us.
+/// Lists the Vulkan devices with driver, type and the limits that matter; on stdout. Returns the exit code: 1
+/// when no device can run us.
 int run_devices();
 
 }  // namespace tachylite

@@ -28,7 +28,9 @@ std::string texture_kind(const Texture& texture) {
   return std::holds_alternative<CheckerboardTexture>(texture.kind) ? "checkerboard" : "mesh_attribute";
 }
 
-std::string depth_text(int depth) { return depth < 0 ? "unlimited" : fmt::format("{}", depth); }
+std::string depth_text(int depth) {
+  return depth < 0 ? "unlimited" : fmt::format("{}", depth);
+}
 
 void print_scene(const Scene& scene, int index) {
   static const char* const cameras[] = {"perspective", "thinlens", "orthographic"};
@@ -36,9 +38,9 @@ void print_scene(const Scene& scene, int index) {
   static const char* const integrators[] = {"direct", "path", "volpath", "volpathmis"};
   const Sensor& sensor = scene.sensors[static_cast<size_t>(index)];
   fmt::print("scene        {}\n", scene.path);
-  fmt::print("sensor       {} of {}: {}, {} x {} pixels, {} filter, {} samples\n", index, scene.sensors.size(),
-             cameras[static_cast<int>(sensor.kind)], sensor.film.crop_width, sensor.film.crop_height,
-             filters[static_cast<int>(sensor.film.filter)], sensor.sample_count);
+  fmt::print("sensor       {} of {}: {}, {} x {} pixels, {} filter, {} samples\n", index,
+             scene.sensors.size(), cameras[static_cast<int>(sensor.kind)], sensor.film.crop_width,
+             sensor.film.crop_height, filters[static_cast<int>(sensor.film.filter)], sensor.sample_count);
   fmt::print("integrator   {}, depth {}, roulette from depth {}\n",
              integrators[static_cast<int>(scene.integrator.kind)], depth_text(scene.integrator.max_depth),
              scene.integrator.rr_depth);
@@ -48,7 +50,8 @@ void print_scene(const Scene& scene, int index) {
   fmt::print("emitters     {}\n", tally(scene.emitters, plugin));
   fmt::print("textures     {}\n", tally(scene.textures, texture_kind));
   fmt::print("media        {}\n", tally(scene.media, [](const Medium& medium) {
-               return std::holds_alternative<HomogeneousMedium>(medium.kind) ? "homogeneous" : "heterogeneous";
+               return std::holds_alternative<HomogeneousMedium>(medium.kind) ? "homogeneous"
+                                                                             : "heterogeneous";
              }));
 }
 
@@ -80,7 +83,8 @@ int run_info(const InfoArguments& arguments) {
   }
   RenderOptions options;
   options.max_paths = arguments.max_paths;
-  options.samples = static_cast<uint64_t>(scene.sensors[static_cast<size_t>(arguments.scene.sensor)].sample_count);
+  options.samples =
+      static_cast<uint64_t>(scene.sensors[static_cast<size_t>(arguments.scene.sensor)].sample_count);
   const MemoryPlan plan = Renderer::plan_memory(*device, packed, options);
   fmt::print("\nmemory plan on {}\n", describe(*device));
   for (const MemoryPlan::Entry& entry : plan.buffers)

@@ -1,7 +1,7 @@
 #include "command_interrupt.h"
 
-#include <csignal>
 #include <unistd.h>
+#include <csignal>
 
 namespace tachylite {
 namespace {
@@ -25,8 +25,14 @@ void install_interrupt_handler() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-InterruptScope::InterruptScope() { state = kNote; }
-InterruptScope::~InterruptScope() { state = kEndAtOnce; }
-bool InterruptScope::requested() const { return state == kNoted; }
+InterruptScope::InterruptScope() {
+  state = kNote;
+}
+InterruptScope::~InterruptScope() {
+  state = kEndAtOnce;
+}
+bool InterruptScope::requested() const {
+  return state == kNoted;
+}
 
 }  // namespace tachylite

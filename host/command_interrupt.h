@@ -5,8 +5,8 @@ namespace tachylite {
 /// From here on SIGINT and SIGTERM end the process at once with exit code 130.
 void install_interrupt_handler();
 
-/// While it lives, the first SIGINT or SIGTERM is only noted, so that what is finished can be written; the second
-/// ends the process.
+/// While it lives, the first SIGINT or SIGTERM is only noted, so that what is finished can be written; the
+/// second ends the process.
 class InterruptScope {
  public:
   InterruptScope();

@@ -15,7 +15,9 @@
 namespace tachylite {
 namespace {
 
-bool is_png(const std::filesystem::path& file) { return file.extension() == ".png"; }
+bool is_png(const std::filesystem::path& file) {
+  return file.extension() == ".png";
+}
 
 }  // namespace
 
@@ -26,10 +28,12 @@ void check_writable(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   if (!std::filesystem::is_directory(folder, failed))
     throw InputError(fmt::format("{}: there is no folder {}", name, folder.string()));
-  const std::string trial = (folder / fmt::format(".{}.{}.trial", file.filename().string(), getpid())).string();
+  const std::string trial =
+      (folder / fmt::format(".{}.{}.trial", file.filename().string(), getpid())).string();
   const int descriptor = open(trial.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
   if (descriptor < 0)
-    throw InputError(fmt::format("{}: cannot write into {}: {}", name, folder.string(), std::strerror(errno)));
+    throw InputError(
+        fmt::format("{}: cannot write into {}: {}", name, folder.string(), std::strerror(errno)));
   close(descriptor);
   unlink(trial.c_str());
 }
@@ -46,7 +50,8 @@ OutputFiles check_outputs(const OutputFiles& given, const std::filesystem::path&
 }
 
 void write_outputs(const OutputFiles& files, const Image& image) {
-  for (const std::filesystem::path& file : files) is_png(file) ? write_png(file, image) : write_exr(file, image);
+  for (const std::filesystem::path& file : files)
+    is_png(file) ? write_png(file, image) : write_exr(file, image);
 }
 
 }  // namespace tachylite

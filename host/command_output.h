@@ -11,8 +11,8 @@ namespace tachylite {
 
 using OutputFiles = std::vector<std::filesystem::path>;
 
-/// SCENE.exr in the current folder where none is given. Throws InputError, before anything is computed, when a name
-/// ends neither in .exr nor in .png, or a file cannot be made in its folder.
+/// SCENE.exr in the current folder where none is given. Throws InputError, before anything is computed, when
+/// a name ends neither in .exr nor in .png, or a file cannot be made in its folder.
 OutputFiles check_outputs(const OutputFiles& given, const std::filesystem::path& scene);
 
 /// Writes the image to every file, by its ending. Throws RenderError.

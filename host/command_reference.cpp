@@ -36,11 +36,11 @@ int run_reference(const RenderArguments& arguments) {
   options.progress = [&](const ReferenceProgress& progress) {
     last = progress;
     const double samples = static_cast<double>(progress.samples_done);
-    display.update(limit_fraction({samples / static_cast<double>(progress.samples_wanted), progress.samples_done,
-                                   progress.samples_wanted, progress.seconds,
-                                   1e-6 * samples * pixels / std::max(progress.seconds, 1e-9),
-                                   progress.relative_error},
-                                  arguments));
+    display.update(
+        limit_fraction({samples / static_cast<double>(progress.samples_wanted), progress.samples_done,
+                        progress.samples_wanted, progress.seconds,
+                        1e-6 * samples * pixels / std::max(progress.seconds, 1e-9), progress.relative_error},
+                       arguments));
     const bool good_enough = progress.relative_error > 0 && progress.relative_error <= arguments.error;
     return !good_enough && !interrupt.requested();
   };
@@ -51,7 +51,8 @@ int run_reference(const RenderArguments& arguments) {
   FinishedRender finished;
   finished.image = to_image(result, scene.integrator.moment);
   RunStatistics& s = finished.statistics;
-  s.device = {{"name", "CPU reference"}, {"type", "CPU"}, {"driver", fmt::format("{} threads", thread_count())}};
+  s.device = {
+      {"name", "CPU reference"}, {"type", "CPU"}, {"driver", fmt::format("{} threads", thread_count())}};
   s.spp = result.samples;
   s.paths = result.samples * result.mean.size();
   s.seconds.load = load_seconds;

@@ -57,7 +57,8 @@ RunStatistics statistics_of(const vulkan::DeviceInfo& device, const Renderer& re
 
 uint64_t wanted_samples(const RenderArguments& arguments, const Sensor& sensor) {
   if (arguments.samples) return *arguments.samples;
-  return arguments.time > 0 || arguments.error > 0 ? kEndlessSamples : static_cast<uint64_t>(sensor.sample_count);
+  return arguments.time > 0 || arguments.error > 0 ? kEndlessSamples
+                                                   : static_cast<uint64_t>(sensor.sample_count);
 }
 
 ProgressFigures limit_fraction(ProgressFigures figures, const RenderArguments& arguments) {
@@ -74,7 +75,8 @@ int write_render(const RenderArguments& arguments, const OutputFiles& outputs, F
                  const Timer& total) {
   RunStatistics& statistics = render.statistics;
   if (statistics.overflow > 0)
-    throw RenderError(fmt::format("{} entries overflowed their queues; nothing is written", statistics.overflow));
+    throw RenderError(
+        fmt::format("{} entries overflowed their queues; nothing is written", statistics.overflow));
   if (statistics.nonfinite > 0)
     log_warning(fmt::format("{} contributions were not finite and count as 0", statistics.nonfinite));
   if (statistics.spp == 0) {
@@ -95,10 +97,11 @@ int write_render(const RenderArguments& arguments, const OutputFiles& outputs, F
   statistics.seconds.total = total.seconds();
   if (!arguments.stats.empty()) write_statistics(arguments.stats, statistics);
 
-  std::string line = fmt::format("{}{} samples in {} ({:.3g} Mpaths/s)", render.interrupted ? "interrupted after " : "",
-                                 statistics.spp, format_duration(statistics.seconds.render),
-                                 statistics.mpaths_per_s());
-  if (render.relative_error > 0) line += fmt::format(", relative error {:.2g} %", 100 * render.relative_error);
+  std::string line =
+      fmt::format("{}{} samples in {} ({:.3g} Mpaths/s)", render.interrupted ? "interrupted after " : "",
+                  statistics.spp, format_duration(statistics.seconds.render), statistics.mpaths_per_s());
+  if (render.relative_error > 0)
+    line += fmt::format(", relative error {:.2g} %", 100 * render.relative_error);
   for (const std::filesystem::path& file : outputs) line += fmt::format(", {}", file.string());
   log_info(line);
   return render.interrupted ? kExitInterrupted : 0;
@@ -121,8 +124,8 @@ int run_render(const RenderArguments& arguments) {
   InterruptScope interrupt;
   ProgressDisplay display(arguments.quiet);
   options.progress = [&](const RenderProgress& progress) {
-    display.update(limit_fraction({progress.fraction, progress.samples, progress.target_samples, progress.seconds,
-                                   progress.mpaths_per_s, progress.relative_error},
+    display.update(limit_fraction({progress.fraction, progress.samples, progress.target_samples,
+                                   progress.seconds, progress.mpaths_per_s, progress.relative_error},
                                   arguments));
     return !interrupt.requested();
   };

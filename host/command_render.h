@@ -20,11 +20,11 @@ struct RenderArguments {
   std::optional<uint64_t> samples;  // per pixel
   std::optional<uint32_t> seed;
   uint64_t first_sample = 0;
-  double time = 0, error = 0;       // limits: seconds, relative standard error of the mean pixel; 0: none
+  double time = 0, error = 0;  // limits: seconds, relative standard error of the mean pixel; 0: none
   std::string device;
   SamplerKind sampler = SamplerKind::kSobol;
   uint32_t max_paths = RenderOptions{}.max_paths;
-  std::filesystem::path stats;      // empty: none
+  std::filesystem::path stats;  // empty: none
   bool quiet = false;
 };
 
@@ -41,7 +41,7 @@ struct FinishedRender {
   RunStatistics statistics;    // all but the seconds of writing and in total
   std::string device, driver;  // for the image's attributes
   uint32_t seed = 0;
-  double relative_error = 0;   // 0: unknown
+  double relative_error = 0;  // 0: unknown
   bool interrupted = false;
 };
 /// Writes images, with attributes of their making, and statistics, and says so. `total` runs since the start.

@@ -28,7 +28,8 @@ Scene load_scene_of(const SceneArguments& arguments) {
   std::vector<std::string>& aovs = scene.integrator.aovs;
   for (const std::string& name : arguments.aovs) {
     const auto kind = kinds.find(name);
-    if (kind == kinds.end()) throw InputError(fmt::format("--aov {}: expected albedo, normal or depth", name));
+    if (kind == kinds.end())
+      throw InputError(fmt::format("--aov {}: expected albedo, normal or depth", name));
     if (std::find(aovs.begin(), aovs.end(), kind->second) == aovs.end()) aovs.push_back(kind->second);
   }
   return scene;

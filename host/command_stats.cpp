@@ -24,30 +24,36 @@ double millions_per_second(uint64_t count, double seconds) {
 
 }  // namespace
 
-double RunStatistics::mpaths_per_s() const { return millions_per_second(paths, seconds.render); }
+double RunStatistics::mpaths_per_s() const {
+  return millions_per_second(paths, seconds.render);
+}
 
 void write_statistics(const std::filesystem::path& file, const RunStatistics& s) {
   using Json = nlohmann::ordered_json;
   Json kernels = Json::array();
   for (const RunStatistics::Kernel& k : s.kernels)
     kernels.push_back({{"name", k.name}, {"dispatches", k.dispatches}, {"seconds", k.seconds}});
-  const Json json = {
-      {"device", s.device},
-      {"spp", s.spp},
-      {"paths", s.paths},
-      {"seconds",
-       {{"load", s.seconds.load}, {"bvh", s.seconds.bvh}, {"pack", s.seconds.pack}, {"upload", s.seconds.upload},
-        {"compile", s.seconds.compile}, {"render", s.seconds.render}, {"write", s.seconds.write},
-        {"total", s.seconds.total}}},
-      {"rays", {{"closest", s.closest_rays}, {"shadow", s.shadow_rays}}},
-      {"mpaths_per_s", s.mpaths_per_s()},
-      {"mrays_per_s", millions_per_second(s.closest_rays + s.shadow_rays, s.seconds.render)},
-      {"nonfinite", s.nonfinite},
-      {"overflow", s.overflow},
-      {"triangles", s.triangles},
-      {"memory", {{"device", s.device_bytes}, {"host", peak_host_bytes()}}},
-      {"stages", {{"run", s.stages_run}, {"skipped", s.stages_skipped}}},
-      {"kernels", kernels}};
+  const Json json = {{"device", s.device},
+                     {"spp", s.spp},
+                     {"paths", s.paths},
+                     {"seconds",
+                      {{"load", s.seconds.load},
+                       {"bvh", s.seconds.bvh},
+                       {"pack", s.seconds.pack},
+                       {"upload", s.seconds.upload},
+                       {"compile", s.seconds.compile},
+                       {"render", s.seconds.render},
+                       {"write", s.seconds.write},
+                       {"total", s.seconds.total}}},
+                     {"rays", {{"closest", s.closest_rays}, {"shadow", s.shadow_rays}}},
+                     {"mpaths_per_s", s.mpaths_per_s()},
+                     {"mrays_per_s", millions_per_second(s.closest_rays + s.shadow_rays, s.seconds.render)},
+                     {"nonfinite", s.nonfinite},
+                     {"overflow", s.overflow},
+                     {"triangles", s.triangles},
+                     {"memory", {{"device", s.device_bytes}, {"host", peak_host_bytes()}}},
+                     {"stages", {{"run", s.stages_run}, {"skipped", s.stages_skipped}}},
+                     {"kernels", kernels}};
   write_atomically(file, [&](const std::filesystem::path& path) {
     std::ofstream out(path);
     out << json.dump(2) << '\n';

@@ -38,8 +38,9 @@ class Contest {
     check_validation(device_);
     const RenderStatistics& statistics = renderer.statistics();
     if (statistics.nonfinite + statistics.overflow > 0)
-      throw RenderError(fmt::format("the device dropped {} contributions that were not finite, and {} for lack of room",
-                                    statistics.nonfinite, statistics.overflow));
+      throw RenderError(
+          fmt::format("the device dropped {} contributions that were not finite, and {} for lack of room",
+                      statistics.nonfinite, statistics.overflow));
     return film.samples() == samples ? std::optional(film.to_image()) : std::nullopt;
   }
 
@@ -49,20 +50,23 @@ class Contest {
     options.samples = samples;
     options.seed = seed_ + static_cast<uint32_t>(round);
     options.progress = [&](const ReferenceProgress& progress) {
-      show(static_cast<double>(progress.samples_done) / static_cast<double>(samples),
-           progress.samples_done, samples);
+      show(static_cast<double>(progress.samples_done) / static_cast<double>(samples), progress.samples_done,
+           samples);
       return !stopped();
     };
     const ReferenceImage image = render_reference(scene_, options);
     if (image.nonfinite > 0)
-      throw RenderError(fmt::format("the reference dropped {} samples that were not finite", image.nonfinite));
+      throw RenderError(
+          fmt::format("the reference dropped {} samples that were not finite", image.nonfinite));
     return image.samples == samples ? std::optional(to_image(image)) : std::nullopt;
   }
 
   bool interrupted() const { return interrupt_.requested(); }
 
  private:
-  bool stopped() const { return interrupted() || (arguments_.time > 0 && timer_.seconds() > arguments_.time); }
+  bool stopped() const {
+    return interrupted() || (arguments_.time > 0 && timer_.seconds() > arguments_.time);
+  }
   void show(double fraction, uint64_t samples, uint64_t target) {
     display_.update({fraction, samples, target, timer_.seconds(), 0, 0});
   }
@@ -85,16 +89,16 @@ int run_verify(const VerifyArguments& arguments) {
   log_info(fmt::format("{}; {} against the CPU reference", summarize(scene, arguments.scene.sensor),
                        describe(device.info())));
   Contest contest(arguments, scene, device);
-  const Verification result =
-      verify([&](uint64_t samples, int round) { return contest.render_device(samples, round); },
-             [&](uint64_t samples, int round) { return contest.render_judge(samples, round); }, {},
-             [](const Verification& now) {
-               double mean = 0;
-               for (const MeanTest& m : now.comparison.test->means) mean = std::max(mean, m.detectable);
-               log_info(fmt::format("{} samples{}: would see a bias of {:.2f} % of the mean, {:.1f} % of a block",
-                                    now.samples, now.confirmed ? ", second pair" : "", 100 * mean,
-                                    100 * now.comparison.test->blocks.detectable));
-             });
+  const Verification result = verify(
+      [&](uint64_t samples, int round) { return contest.render_device(samples, round); },
+      [&](uint64_t samples, int round) { return contest.render_judge(samples, round); }, {},
+      [](const Verification& now) {
+        double mean = 0;
+        for (const MeanTest& m : now.comparison.test->means) mean = std::max(mean, m.detectable);
+        log_info(fmt::format("{} samples{}: would see a bias of {:.2f} % of the mean, {:.1f} % of a block",
+                             now.samples, now.confirmed ? ", second pair" : "", 100 * mean,
+                             100 * now.comparison.test->blocks.detectable));
+      });
   if (contest.interrupted()) return kExitInterrupted;
   if (result.verdict == Verification::Verdict::kOpen) {
     log_info(fmt::format("no verdict: {} samples do not suffice", result.samples));

@@ -18,8 +18,8 @@ struct VerifyArguments {
   bool quiet = false;
 };
 
-/// Device against reference, with as many samples as it takes (image/verify.h). Figures and verdict on stdout.
-/// Returns the exit code: 0 agree, 1 differ or no verdict in time, 130 interrupted.
+/// Device against reference, with as many samples as it takes (image/verify.h). Figures and verdict on
+/// stdout. Returns the exit code: 0 agree, 1 differ or no verdict in time, 130 interrupted.
 int run_verify(const VerifyArguments& arguments);
 
 }  // namespace tachylite

@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -25,15 +25,18 @@ constexpr int kMostThreads = 1024;
 
 void add_scene_options(CLI::App& command, SceneArguments& scene) {
   command.add_option("scene", scene.file, "Mitsuba 3 scene")->required()->type_name("SCENE.xml");
-  command.add_option("-D", scene.defines, "value of the scene's $name")->type_name("name=value")
+  command.add_option("-D", scene.defines, "value of the scene's $name")
+      ->type_name("name=value")
       ->allow_extra_args(false);
-  command.add_option("--sensor", scene.sensor, "which of the scene's sensors, from 0")->type_name("N")
+  command.add_option("--sensor", scene.sensor, "which of the scene's sensors, from 0")
+      ->type_name("N")
       ->check(CLI::NonNegativeNumber);
   command.add_flag("--permissive", scene.permissive, "unknown plugins and parameters are warnings only");
 }
 
 void add_paths_option(CLI::App& command, uint32_t& max_paths) {
-  command.add_option("--max-paths", max_paths, "paths in flight on the device")->type_name("N")
+  command.add_option("--max-paths", max_paths, "paths in flight on the device")
+      ->type_name("N")
       ->check(CLI::Range(1u, kMostPaths));
 }
 
@@ -43,19 +46,22 @@ void add_device_option(CLI::App& command, std::string& device) {
 }
 
 void add_threads_option(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "threads of the host; 0: one a core")->type_name("N")
+  command.add_option("--threads", threads, "threads of the host; 0: one a core")
+      ->type_name("N")
       ->check(CLI::Range(0, kMostThreads));
 }
 
 void add_sampler_option(CLI::App& command, SamplerKind& sampler) {
   static const std::map<std::string, SamplerKind> names = {{"sobol", SamplerKind::kSobol},
                                                            {"independent", SamplerKind::kIndependent}};
-  command.add_option("--sampler", sampler, "sobol (default) or independent")->type_name("NAME")
+  command.add_option("--sampler", sampler, "sobol (default) or independent")
+      ->type_name("NAME")
       ->transform(CLI::CheckedTransformer(names).description(""));
 }
 
 void add_seed_option(CLI::App& command, std::optional<uint32_t>& seed) {
-  command.add_option("--seed", seed, "of the random numbers")->type_name("N")
+  command.add_option("--seed", seed, "of the random numbers")
+      ->type_name("N")
       ->check(CLI::Range(int64_t{0}, int64_t{std::numeric_limits<uint32_t>::max()}));
 }
 
@@ -71,7 +77,8 @@ CLI::Validator within(double low, double high) {
 }
 
 void add_time_option(CLI::App& command, double& time) {
-  command.add_option("--time", time, "stop after so many seconds of rendering")->type_name("SECONDS")
+  command.add_option("--time", time, "stop after so many seconds of rendering")
+      ->type_name("SECONDS")
       ->check(within(1e-3, 1e9));
 }
 
@@ -84,19 +91,24 @@ void add_render_options(CLI::App& command, RenderArguments& arguments, int& thre
   const auto sample_range = CLI::Range(int64_t{1}, static_cast<int64_t>(kEndlessSamples));
   add_scene_options(command, arguments.scene);
   command.add_option("-o,--output", arguments.outputs, "image, .exr or .png; may be given several times")
-      ->type_name("FILE")->allow_extra_args(false);
+      ->type_name("FILE")
+      ->allow_extra_args(false);
   command.add_option("--spp", arguments.samples, "samples a pixel")->type_name("N")->check(sample_range);
   add_seed_option(command, arguments.seed);
   add_time_option(command, arguments.time);
   command.add_option("--error", arguments.error, "stop at this relative standard error of the mean pixel")
-      ->type_name("E")->check(within(1e-9, 1e3));
+      ->type_name("E")
+      ->check(within(1e-9, 1e3));
   add_device_option(command, arguments.device);
   add_sampler_option(command, arguments.sampler);
   add_paths_option(command, arguments.max_paths);
   add_threads_option(command, threads);
-  command.add_option("--aov", arguments.scene.aovs, "further layers: albedo,normal,depth")->type_name("LIST")
-      ->delimiter(',')->allow_extra_args(false);
-  command.add_option("--first-sample", arguments.first_sample, "number of the first sample")->type_name("N")
+  command.add_option("--aov", arguments.scene.aovs, "further layers: albedo,normal,depth")
+      ->type_name("LIST")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command.add_option("--first-sample", arguments.first_sample, "number of the first sample")
+      ->type_name("N")
       ->check(CLI::Range(int64_t{0}, static_cast<int64_t>(kEndlessSamples)))
       ->check([](const std::string& text) {
         return std::stoull(text) % gpu::kBlockSamples == 0
@@ -114,8 +126,9 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.failure_message([&app](const CLI::App*, const CLI::Error& error) {
     const std::vector<std::string> unknown = app.remaining();
-    return unknown.empty() ? fmt::format("{}; --help shows what there is\n", error.what())
-                           : fmt::format("unknown: {}; --help shows what there is\n", fmt::join(unknown, " "));
+    return unknown.empty()
+               ? fmt::format("{}; --help shows what there is\n", error.what())
+               : fmt::format("unknown: {}; --help shows what there is\n", fmt::join(unknown, " "));
   });
 
   int threads = 0;
@@ -142,10 +155,12 @@ int run(int argc, char** argv) {
   CLI::App& compare_command = *app.add_subcommand("compare", "differences of two images, and a test of them");
   compare_command.add_option("a", compare.a)->required()->type_name("A.exr");
   compare_command.add_option("b", compare.b)->required()->type_name("B.exr");
-  CLI::Option* variance = compare_command.add_option("--variance", compare.variance, "variance of one sample")
-                              ->type_name("VAR.exr");
+  CLI::Option* variance =
+      compare_command.add_option("--variance", compare.variance, "variance of one sample")
+          ->type_name("VAR.exr");
   CLI::Option* samples = compare_command.add_option("--spp", compare.samples, "samples in a pixel of A")
-                             ->type_name("N")->check(CLI::Range(int64_t{1}, std::numeric_limits<int64_t>::max()));
+                             ->type_name("N")
+                             ->check(CLI::Range(int64_t{1}, std::numeric_limits<int64_t>::max()));
   variance->needs(samples);
   samples->needs(variance);
   compare_command.add_flag("--json", compare.json, "figures as JSON");

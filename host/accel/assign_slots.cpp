@@ -11,6 +11,14 @@ namespace {
 
 constexpr uint32_t kSets = 1u << kBvhWidth;
 
+/// Number of members of each set (std::popcount is a function call where the processor is not known to have
+/// it).
+constexpr std::array<uint8_t, kSets> kSize = [] {
+  std::array<uint8_t, kSets> size{};
+  for (uint32_t set = 1; set < kSets; ++set) size[set] = static_cast<uint8_t>(size[set >> 1] + (set & 1));
+  return size;
+}();
+
 class SlotAssignment {
  public:
   SlotAssignment(const std::vector<BinaryNode>& nodes, const WideChildren& inner, uint32_t count,
@@ -28,7 +36,7 @@ class SlotAssignment {
     const uint32_t all = (1u << count_) - 1;
     for (uint32_t axis = 0; axis < 3; ++axis)
       for (uint32_t set = 1; set <= all; ++set) {
-        if (static_cast<uint32_t>(std::popcount(set)) > 2u << axis || (axis == 2 && set != all)) continue;
+        if (kSize[set] > 2u << axis || (axis == 2 && set != all)) continue;
         halve(set, axis);
       }
     std::array<uint32_t, kBvhWidth> slots{};
@@ -61,12 +69,12 @@ class SlotAssignment {
   }
 
   void halve(uint32_t set, uint32_t axis) {
-    const int room = 1 << axis;  // slots on each side
+    const uint32_t room = 1u << axis;  // slots on each side
     float best = -std::numeric_limits<float>::infinity();
     uint32_t best_low = 0;
     for (uint32_t low = set;; low = (low - 1) & set) {
       const uint32_t high = set ^ low;
-      if (std::popcount(low) <= room && std::popcount(high) <= room) {
+      if (kSize[low] <= room && kSize[high] <= room) {
         float gain = axis ? gains_[axis - 1][low] + gains_[axis - 1][high] : 0;
         for (uint32_t l = low; l; l &= l - 1)
           for (uint32_t h = high; h; h &= h - 1)

@@ -34,7 +34,7 @@ class Reinserter {
     for (const Move& m : moves) {
       const uint32_t slots[] = {m.node, m.node ^ 1, parent(m.node), m.target};
       if (std::any_of(std::begin(slots), std::end(slots), [&](uint32_t s) { return touched_[s]; })) continue;
-      if (is_ancestor(m.node, m.target)) continue;
+      if (is_ancestor(m.node, m.target)) continue;  // by an earlier move
       for (uint32_t s : slots) touched_[s] = 1;
       saved += apply(m);
     }

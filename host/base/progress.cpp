@@ -11,7 +11,7 @@
 namespace tachylite {
 namespace {
 
-constexpr double kBarInterval = 0.1;        // s
+constexpr double kBarInterval = 0.1;         // s
 constexpr double kLongestLineInterval = 60;  // s
 constexpr int kNarrowestBar = 10, kWidestBar = 40;
 
@@ -55,7 +55,9 @@ std::string format_progress_bar(const ProgressFigures& f, int columns) {
 
 ProgressDisplay::ProgressDisplay(bool quiet, std::FILE* stream)
     : stream_(stream),
-      style_(quiet ? Style::kSilent : isatty(fileno(stream)) ? Style::kBar : Style::kLines),
+      style_(quiet                    ? Style::kSilent
+             : isatty(fileno(stream)) ? Style::kBar
+                                      : Style::kLines),
       next_(style_ == Style::kLines ? interval_ : 0) {}
 
 void ProgressDisplay::update(const ProgressFigures& figures) {

@@ -89,7 +89,8 @@ DifferenceVariance sample_variance(const Image& variance, uint64_t samples) {
 Comparison compare_images(const Image& a, const Image& b, const std::optional<DifferenceVariance>& variance,
                           const ZTestOptions& options) {
   if (a.width != b.width || a.height != b.height)
-    throw InputError(fmt::format("the images differ in size: {}x{} and {}x{}", a.width, a.height, b.width, b.height));
+    throw InputError(
+        fmt::format("the images differ in size: {}x{} and {}x{}", a.width, a.height, b.width, b.height));
   const std::vector<std::string> names = common_channels(a, b);
   Comparison result;
   result.width = a.width;
@@ -133,11 +134,13 @@ std::string describe(const ZTest& test, const std::vector<std::string>& names) {
                                  test.options.level, test.variance_from, 100 * test.options.tolerance);
   for (size_t c = 0; c < test.means.size(); ++c) {
     const MeanTest& m = test.means[c];
-    text += fmt::format("  mean {}: {:+.3f} % +- {:.3f} %, p = {:.2g}; a bias of {:.2f} % is seen with probability 0.95\n",
-                        names[c], 100 * m.difference, 100 * m.standard_error, m.p, 100 * m.detectable);
+    text += fmt::format(
+        "  mean {}: {:+.3f} % +- {:.3f} %, p = {:.2g}; a bias of {:.2f} % is seen with probability 0.95\n",
+        names[c], 100 * m.difference, 100 * m.standard_error, m.p, 100 * m.detectable);
   }
   const BlockTest& blocks = test.blocks;
-  text += fmt::format("  blocks of {0}x{0}: {1} of {2} beyond the limit", blocks.block, blocks.beyond, blocks.count);
+  text += fmt::format("  blocks of {0}x{0}: {1} of {2} beyond the limit", blocks.block, blocks.beyond,
+                      blocks.count);
   if (blocks.worst_p < 1)
     text += fmt::format("; worst at ({}, {}) {}: {:+.2f} %, t = {:.2f}, p = {:.2g}", blocks.x, blocks.y,
                         names[static_cast<size_t>(blocks.channel)], 100 * blocks.difference, blocks.worst_t,
@@ -162,11 +165,11 @@ std::string describe(const Comparison& comparison) {
   std::vector<std::string> names;
   for (const ChannelDifference& c : comparison.channels) {
     names.push_back(c.name);
-    text += fmt::format("{:<8}{:>13.6g}{:>13.6g}{:>10.5f}{:>12.4g}{:>12.4g}{:>12.4g} at ({}, {})\n", c.name, c.mean_a,
-                        c.mean_b, c.ratio, c.mse, c.rel_mse, c.largest, c.x, c.y);
+    text += fmt::format("{:<8}{:>13.6g}{:>13.6g}{:>10.5f}{:>12.4g}{:>12.4g}{:>12.4g} at ({}, {})\n", c.name,
+                        c.mean_a, c.mean_b, c.ratio, c.mse, c.rel_mse, c.largest, c.x, c.y);
   }
-  text += fmt::format("{:<44}{:>12.4g}{:>12.4g}   relMSE = mean((A-B)^2 / (B^2 + {:.4g}))\n", "all", comparison.mse,
-                      comparison.rel_mse, comparison.epsilon);
+  text += fmt::format("{:<44}{:>12.4g}{:>12.4g}   relMSE = mean((A-B)^2 / (B^2 + {:.4g}))\n", "all",
+                      comparison.mse, comparison.rel_mse, comparison.epsilon);
   if (comparison.nonfinite > 0) text += fmt::format("{} values are not finite\n", comparison.nonfinite);
   if (comparison.test) text += describe(*comparison.test, names);
   return text;

@@ -15,9 +15,9 @@ namespace tachylite {
 struct ChannelDifference {
   std::string name;
   double mean_a = 0, mean_b = 0;
-  double ratio = 1;     // mean_a / mean_b; 1 when both are 0
+  double ratio = 1;  // mean_a / mean_b; 1 when both are 0
   double mse = 0, rel_mse = 0;
-  double largest = 0;   // largest |a - b|, at pixel (x, y)
+  double largest = 0;  // largest |a - b|, at pixel (x, y)
   int x = 0, y = 0;
 };
 
@@ -31,15 +31,16 @@ struct Comparison {
   bool agree() const { return nonfinite == 0 && (!test || test->agree()); }
 };
 
-/// From the layers variance.R/G/B (variance of the pixel's mean) of the two; nothing if neither has them. An image
-/// without them counts as exact.
+/// From the layers variance.R/G/B (variance of the pixel's mean) of the two; nothing if neither has them. An
+/// image without them counts as exact.
 std::optional<DifferenceVariance> layer_variance(const Image& a, const Image& b);
 
-/// From an image R G B of the variance of one sample, for an image of `samples` of them a pixel. Below 1e-4 it
-/// counts as 1e-4, as in Mitsuba's render tests: so dark a pixel's variance is rarely known well.
+/// From an image R G B of the variance of one sample, for an image of `samples` of them a pixel. Below 1e-4
+/// it counts as 1e-4, as in Mitsuba's render tests: so dark a pixel's variance is rarely known well.
 DifferenceVariance sample_variance(const Image& variance, uint64_t samples);
 
-/// Compares the channels R G B (or Y) of `a` with those of `b`. Throws InputError when sizes or channels do not fit.
+/// Compares the channels R G B (or Y) of `a` with those of `b`. Throws InputError when sizes or channels do
+/// not fit.
 Comparison compare_images(const Image& a, const Image& b, const std::optional<DifferenceVariance>& variance,
                           const ZTestOptions& options = {});
 

@@ -63,6 +63,10 @@ Image read_part(const FileLocation& where, const std::filesystem::path& path, si
   const auto [width, height] = window_size(where, window, image.names.size(), max_pixels);
   image.width = static_cast<int>(width);
   image.height = static_cast<int>(height);
+  // No compression packs more than this; a small file must not take all memory.
+  constexpr uintmax_t kMostPerByte = uintmax_t{1} << 17;
+  if (width * height * image.names.size() > kMostPerByte * std::filesystem::file_size(path))
+    throw InputError(where, "the EXR file is cut short");
   Imf::FrameBuffer frame;
   image.channels.resize(image.names.size());
   for (size_t i = 0; i < image.names.size(); ++i) {

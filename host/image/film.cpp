@@ -30,6 +30,11 @@ double FilmBuffer::relative_error() const {
   return mean_luminance > 0 ? std::sqrt(variance / pixels) / (mean_luminance / pixels) : 0;
 }
 
+void FilmBuffer::set_extra_channels(std::vector<std::string> names) {
+  extra_names_ = std::move(names);
+  extra_.assign(extra_names_.size(), std::vector<double>(sum_.size(), 0.0));
+}
+
 Image FilmBuffer::to_image() const {
   Image image;
   image.width = width_;
@@ -44,6 +49,11 @@ Image FilmBuffer::to_image() const {
       std::vector<float>& channel = image.add(std::string("variance.") + names[c]);
       for (size_t i = 0; i < sum_.size(); ++i) channel[i] = static_cast<float>(variance_of_mean(i)[c]);
     }
+  }
+  for (size_t c = 0; c < extra_.size(); ++c) {
+    std::vector<float>& channel = image.add(extra_names_[c]);
+    for (size_t i = 0; i < sum_.size(); ++i)
+      channel[i] = static_cast<float>(samples_ ? extra_[c][i] / static_cast<double>(samples_) : 0.0);
   }
   return image;
 }

@@ -25,6 +25,10 @@ class FilmBuffer {
     sum_[index] += sum;
     square_[index] += sum * sum / static_cast<double>(n);
   }
+  /// Extra channels (AOVs): sums of samples in double, no variance.
+  void set_extra_channels(std::vector<std::string> names);
+  void add_extra(size_t index, size_t channel, double sum) { extra_[channel][index] += sum; }
+
   /// To be called after each block has been added to every pixel.
   void finish_block(uint64_t n) {
     samples_ += n;
@@ -40,13 +44,15 @@ class FilmBuffer {
   /// Estimated relative standard error of the mean pixel: sqrt(mean variance) / mean, of luminance. 0 if unknown.
   double relative_error() const;
 
-  /// R G B and, with two blocks or more, variance.R/G/B.
+  /// R G B and, with two blocks or more, variance.R/G/B; then the extra channels.
   Image to_image() const;
 
  private:
   int width_, height_;
   uint64_t samples_ = 0, blocks_ = 0;
   std::vector<glm::dvec3> sum_, square_;
+  std::vector<std::string> extra_names_;
+  std::vector<std::vector<double>> extra_;
 };
 
 }  // namespace tachylite

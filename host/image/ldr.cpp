@@ -111,8 +111,13 @@ DecodedImage read_ldr(const std::filesystem::path& file, size_t max_pixels) {
     throw InputError(where, fmt::format("the image has {} x {} pixels; at most {} are read", image.width,
                                         image.height, max_pixels));
 
+  // What the format can pack at most: deflate 1032 bytes of 8 grey pixels into one, Radiance's runs 127 into
+  // 8 bytes.
   Source hdr_source{bytes}, wide_source{bytes}, source{bytes};
   const bool hdr = stbi_is_hdr_from_callbacks(&Source::kCallbacks, &hdr_source);
+  const size_t most_pixels = bytes.size() * (hdr ? 16 : 8 * 1032);
+  if (static_cast<size_t>(image.width) * static_cast<size_t>(image.height) > most_pixels)
+    throw InputError(where, "the image file is cut short");
   const bool wide = !hdr && stbi_is_16_bit_from_callbacks(&Source::kCallbacks, &wide_source);
   const auto decode = [&](auto* load) {
     return take(load(&Source::kCallbacks, &source, &image.width, &image.height, &image.channels, 0), image);

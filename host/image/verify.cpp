@@ -61,7 +61,8 @@ Verification verify(const RenderRound& tested, const RenderRound& judge, const V
 
   // Double the samples until the power is there, or a difference is beyond doubt.
   for (;; ++round) {
-    const std::optional<Image> more_a = tested(next, round), more_b = more_a ? judge(next, round) : std::nullopt;
+    const std::optional<Image> more_a = tested(next, round),
+                               more_b = more_a ? judge(next, round) : std::nullopt;
     if (!more_b) return result;
     a.add(*more_a, next);
     b.add(*more_b, next);

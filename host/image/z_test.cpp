@@ -17,7 +17,9 @@ constexpr double kPowerQuantile = 1.6448536269514722;  // standard normal, 0.95
 constexpr size_t kMinGroups = 64;                      // for the test of the means
 
 /// 1 - (1 - alpha)^(1/n): the level of one of n tests.
-double sidak(double alpha, double n) { return -std::expm1(std::log1p(-alpha) / n); }
+double sidak(double alpha, double n) {
+  return -std::expm1(std::log1p(-alpha) / n);
+}
 
 /// Probability of |T| > |t| for Student's t; infinitely many degrees of freedom are the normal distribution.
 double two_sided_p(double t, double dof) {
@@ -105,7 +107,8 @@ MeanTest test_mean(const Tiling& groups, double scale, double alpha, double tole
     double t = kInfinity;
     if (deviation > 0) {
       const double s = shrunk / n / deviation, skewness = third / n / std::pow(second / n, 1.5);
-      t = std::sqrt(n) * (s + skewness * s * s / 3 + skewness * skewness * s * s * s / 27 + skewness / (6 * n));
+      t = std::sqrt(n) *
+          (s + skewness * s * s / 3 + skewness * skewness * s * s * s / 27 + skewness / (6 * n));
     }
     test.p = two_sided_p(t, n - 1);
   }
@@ -114,11 +117,14 @@ MeanTest test_mean(const Tiling& groups, double scale, double alpha, double tole
   return test;
 }
 
-/// Variance of the tile's sum and its degrees of freedom: its own, or that of its 3x3 neighbours if larger. Noise is
-/// about proportional to radiance, so it is v / (b^2 + dark^2) that neighbours are taken to have in common.
-std::pair<double, double> pooled_variance(const Tiling& tiling, int column, int row, double dark, bool exact) {
+/// Variance of the tile's sum and its degrees of freedom: its own, or that of its 3x3 neighbours if larger.
+/// Noise is about proportional to radiance, so it is v / (b^2 + dark^2) that neighbours are taken to have in
+/// common.
+std::pair<double, double> pooled_variance(const Tiling& tiling, int column, int row, double dark,
+                                          bool exact) {
   const auto tile = [&](int c, int r) -> const Sums& {
-    return tiling.tiles[static_cast<size_t>(r) * static_cast<size_t>(tiling.columns) + static_cast<size_t>(c)];
+    return tiling
+        .tiles[static_cast<size_t>(r) * static_cast<size_t>(tiling.columns) + static_cast<size_t>(c)];
   };
   const auto power = [dark](const Sums& s) { return s.power + s.pixels * dark * dark; };
   const Sums& own = tile(column, row);
@@ -133,12 +139,14 @@ std::pair<double, double> pooled_variance(const Tiling& tiling, int column, int 
     }
   }
   const double pooled = pool.sum / count * power(own);
-  return own.variance.sum > pooled ? std::pair{own.variance.sum, own.variance.dof()} : std::pair{pooled, pool.dof()};
+  return own.variance.sum > pooled ? std::pair{own.variance.sum, own.variance.dof()}
+                                   : std::pair{pooled, pool.dof()};
 }
 
 /// Adds the blocks of channel `channel` to `test`, and their detectable biases to `detectable`.
-void test_blocks(const Tiling& tiling, int channel, double dark, double alpha, const DifferenceVariance& variance,
-                 double tolerance, BlockTest& test, std::vector<double>& detectable) {
+void test_blocks(const Tiling& tiling, int channel, double dark, double alpha,
+                 const DifferenceVariance& variance, double tolerance, BlockTest& test,
+                 std::vector<double>& detectable) {
   for (int row = 0; row < tiling.rows; ++row) {
     for (int column = 0; column < tiling.columns; ++column) {
       const Sums& own = tiling.tiles[static_cast<size_t>(row) * static_cast<size_t>(tiling.columns) +
@@ -146,7 +154,9 @@ void test_blocks(const Tiling& tiling, int channel, double dark, double alpha, c
       const auto [summed, dof] = pooled_variance(tiling, column, row, dark, variance.exact);
       const double deviation = std::sqrt(summed);
       const double shrunk = shrink(own.difference, tolerance * own.reference);
-      const double t = shrunk == 0 ? 0 : deviation > 0 ? shrunk / deviation : std::copysign(kInfinity, shrunk);
+      const double t = shrunk == 0     ? 0
+                       : deviation > 0 ? shrunk / deviation
+                                       : std::copysign(kInfinity, shrunk);
       const double p = two_sided_p(t, dof);
       test.beyond += p < alpha;
       if (p < test.worst_p) {
@@ -177,7 +187,8 @@ uint64_t count_pixels_beyond(int width, int height, const std::vector<float>& a,
       const size_t i = index(x, y);
       const double shrunk = shrink(double{a[i]} - double{b[i]}, tolerance * std::abs(double{b[i]}));
       double v = variance[i], dof = kInfinity;
-      // Student's tails are the heavier: what the normal limit and the pixel's own variance pass needs no pool.
+      // Student's tails are the heavier: what the normal limit and the pixel's own variance pass needs no
+      // pool.
       if (shrunk * shrunk <= normal_limit * normal_limit * v) continue;
       if (!exact && power(i) > 0) {
         Variance pool;
@@ -200,7 +211,8 @@ uint64_t count_pixels_beyond(int width, int height, const std::vector<float>& a,
 }  // namespace
 
 ZTest z_test(int width, int height, const std::vector<std::vector<float>>& a,
-             const std::vector<std::vector<float>>& b, const DifferenceVariance& given, const ZTestOptions& options) {
+             const std::vector<std::vector<float>>& b, const DifferenceVariance& given,
+             const ZTestOptions& options) {
   const size_t channels = a.size(), pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
   CHECK_EQ(b.size(), channels);
   CHECK_EQ(given.channels.size(), channels);
@@ -216,7 +228,9 @@ ZTest z_test(int width, int height, const std::vector<std::vector<float>>& a,
   const double brightest = channels ? *std::max_element(mean.begin(), mean.end()) : 0;
 
   const int edge = group_edge(width, height, options.block);
-  const auto blocks_along = [&](int n) { return static_cast<size_t>((n + options.block - 1) / options.block); };
+  const auto blocks_along = [&](int n) {
+    return static_cast<size_t>((n + options.block - 1) / options.block);
+  };
   test.blocks.block = options.block;
   test.blocks.count = blocks_along(width) * blocks_along(height) * channels;
   test.pixels.count = pixels * channels;

@@ -2,16 +2,19 @@
 
 // Whether noise explains the difference of two images of one scene.
 //
-// The null hypothesis: both images have the same expectation in every pixel, up to a relative `tolerance` (rounding
-// is no difference). Three tests share the level by Sidak, alpha = 1 - (1 - level)^(1/3) each, and each shares its
-// alpha again among channels, blocks or pixels:
-//  - means, per channel: t statistic of the sums of the difference over groups of pixels, corrected for skewness
-//    (Hall 1992, "On the removal of skewness by transformation", JRSS B 54). Its variance comes from the difference
-//    itself, so variance layers that over-estimate (those of Owen-sampled renders do) cost it no power.
+// The null hypothesis: both images have the same expectation in every pixel, up to a relative `tolerance`
+// (rounding is no difference). Three tests share the level by Sidak, alpha = 1 - (1 - level)^(1/3) each, and
+// each shares its alpha again among channels, blocks or pixels:
+//  - means, per channel: t statistic of the sums of the difference over groups of pixels, corrected for
+//  skewness
+//    (Hall 1992, "On the removal of skewness by transformation", JRSS B 54). Its variance comes from the
+//    difference itself, so variance layers that over-estimate (those of Owen-sampled renders do) cost it no
+//    power.
 //  - blocks, per block and channel: the sum of the difference over the root of the summed variance, against
-//    Student's t with (sum v)^2 / sum v^2 degrees of freedom (Satterthwaite 1946, with squared estimates for the
-//    fourth moments: too few, never too many). The variance is the larger of the block's own and that which its 3x3
-//    neighbours, scaled to its brightness, suggest: a block that missed a rare bright path must not cry wolf.
+//    Student's t with (sum v)^2 / sum v^2 degrees of freedom (Satterthwaite 1946, with squared estimates for
+//    the fourth moments: too few, never too many). The variance is the larger of the block's own and that
+//    which its 3x3 neighbours, scaled to its brightness, suggest: a block that missed a rare bright path must
+//    not cry wolf.
 //  - pixels: the same with neighbourhoods of 5x5 pixels; rejects when more than kPixelShare of all pixels and
 //    channels lie beyond their Sidak limit, as Mitsuba's render tests do.
 
@@ -34,20 +37,21 @@ struct DifferenceVariance {
   std::string from;    // what it was made of, for people
 };
 
-/// Relative figures are in units of the channel's mean of b, or of 5 % of the brightest channel's if that is more.
+/// Relative figures are in units of the channel's mean of b, or of 5 % of the brightest channel's if that is
+/// more.
 struct MeanTest {
   double difference = 0;      // mean(a - b), relative
   double standard_error = 0;  // of `difference`
   double p = 1;
-  double detectable = 0;      // bias that is called a difference with probability 0.95, relative
+  double detectable = 0;  // bias that is called a difference with probability 0.95, relative
 };
 struct BlockTest {
   int block = 8;
-  uint64_t count = 0, beyond = 0;    // blocks times channels; those beyond the Sidak limit
-  double worst_t = 0, worst_p = 1;   // of the block that is least likely
-  int x = 0, y = 0, channel = 0;     // its first pixel, and its channel
-  double difference = 0;             // its sum of a - b over its sum of b
-  double detectable = 0;             // relative bias seen with probability 0.95 in the median block
+  uint64_t count = 0, beyond = 0;   // blocks times channels; those beyond the Sidak limit
+  double worst_t = 0, worst_p = 1;  // of the block that is least likely
+  int x = 0, y = 0, channel = 0;    // its first pixel, and its channel
+  double difference = 0;            // its sum of a - b over its sum of b
+  double detectable = 0;            // relative bias seen with probability 0.95 in the median block
 };
 struct PixelTest {
   uint64_t count = 0, beyond = 0;  // pixels times channels; those beyond the Sidak limit
@@ -65,8 +69,8 @@ struct ZTest {
   bool agree() const { return means_agree && blocks_agree && pixels_agree; }
 };
 
-/// Channels a[c] and b[c] of width*height pixels; all values finite. A pixel that must not count has a = b = 0 and
-/// variance 0.
+/// Channels a[c] and b[c] of width*height pixels; all values finite. A pixel that must not count has a = b =
+/// 0 and variance 0.
 ZTest z_test(int width, int height, const std::vector<std::vector<float>>& a,
              const std::vector<std::vector<float>>& b, const DifferenceVariance& variance,
              const ZTestOptions& options = {});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "shared/aov.h"
 #include "shared/material.h"
 #include "shared/texture.h"
 
@@ -82,6 +83,23 @@ std::map<uint32_t, uint32_t> FeatureSet::class_constants(size_t index) const {
   values[gpu::kFeatureMaxLeaves] = c.max_leaves;
   values[gpu::kFeatureTexturedInputs] = c.textured;
   values[gpu::kFeatureClass] = static_cast<uint32_t>(index);
+  return values;
+}
+
+std::map<uint32_t, uint32_t> FeatureSet::union_constants() const {
+  std::map<uint32_t, uint32_t> values = constants();
+  MaterialClass all;
+  for (const MaterialClass& c : classes) {
+    all.bsdfs |= c.bsdfs;
+    all.flags |= c.flags;
+    all.max_leaves = std::max(all.max_leaves, c.max_leaves);
+    all.textured |= c.textured;
+  }
+  if (aovs & (1u << gpu::kAovDpDu | 1u << gpu::kAovDpDv)) all.flags |= gpu::kMaterialTangent;
+  values[gpu::kFeatureBsdfs] = all.bsdfs;
+  values[gpu::kFeatureMaterial] = all.flags;
+  values[gpu::kFeatureMaxLeaves] = all.max_leaves;
+  values[gpu::kFeatureTexturedInputs] = all.textured;
   return values;
 }
 

@@ -12,6 +12,7 @@
 #include "pack/pack_light.h"
 #include "pack/pack_material.h"
 #include "pack/pack_texture.h"
+#include "shared/aov.h"
 #include "shared/geometry.h"
 #include "shared/material.h"
 
@@ -67,6 +68,19 @@ void mark_leaves(const Geometry& geometry, const std::vector<uint32_t>& class_of
   }
 }
 
+// The auxiliary channels that the integrator asks for.
+std::vector<Aov> scene_aovs(const Scene& scene) {
+  std::vector<Aov> aovs = parse_aovs(scene.integrator.aovs);
+  if (scene.integrator.moment) aovs.push_back(moment_aov());
+  return aovs;
+}
+
+bool aov_needs_uv(const std::vector<Aov>& aovs) {
+  return std::any_of(aovs.begin(), aovs.end(), [](const Aov& aov) {
+    return aov.kind == gpu::kAovUv || aov.kind == gpu::kAovDpDu || aov.kind == gpu::kAovDpDv;
+  });
+}
+
 void set_path_features(const Scene& scene, FeatureSet& features) {
   const Integrator& integrator = scene.integrator;
   features.max_depth = integrator.max_depth < 0 ? 0xffffffffu : static_cast<uint32_t>(integrator.max_depth);
@@ -74,6 +88,7 @@ void set_path_features(const Scene& scene, FeatureSet& features) {
   features.roulette_depth = static_cast<uint32_t>(std::max(1, integrator.rr_depth));
   features.hide_emitters = integrator.hide_emitters;
   features.strategy = static_cast<uint32_t>(integrator.strategy);
+  for (const Aov& aov : scene_aovs(scene)) features.aovs |= 1u << aov.kind;
 }
 
 }  // namespace
@@ -108,6 +123,7 @@ PackedScene pack_scene(const Scene& scene, int sensor_index) {
   const bool surface_uv = std::any_of(features.classes.begin(), features.classes.end(), [](const MaterialClass& c) {
     return (c.flags & (gpu::kMaterialTextured | gpu::kMaterialTangent)) != 0;
   });
+  const bool aov_uv = aov_needs_uv(scene_aovs(scene));
 
   // The tree; hits name leaves, so lights are packed after it.
   Timer bvh_timer;
@@ -118,7 +134,7 @@ PackedScene pack_scene(const Scene& scene, int sensor_index) {
   features.lights = lights.kinds;
   features.selection = lights.selection;
   features.light_textures = lights.textures;
-  features.vertex_uv = surface_uv || lights.textures;
+  features.vertex_uv = surface_uv || lights.textures || aov_uv;
 
   // Shapes.
   std::vector<uint32_t> class_of_shape(scene.shapes.size());
@@ -157,6 +173,7 @@ PackedScene pack_scene(const Scene& scene, int sensor_index) {
   features.camera = static_cast<uint32_t>(sensor.kind);
   features.filter = static_cast<uint32_t>(sensor.film.filter);
   set_path_features(scene, features);
+  out.aovs = scene_aovs(scene);
   out.params.class_count = static_cast<uint32_t>(features.classes.size());
   out.params.light_count = lights.count;
   out.params.environment_light = lights.environment_row;

@@ -6,6 +6,7 @@
 
 #include "accel/bvh.h"
 #include "pack/feature_set.h"
+#include "scene/aov.h"
 #include "scene/scene.h"
 #include "shared/render_params.h"
 
@@ -15,6 +16,7 @@ namespace tachylite {
 struct PackedScene {
   gpu::RenderParams params{};  // camera, film, lights; wave-dependent members are filled by the renderer
   FeatureSet features;
+  std::vector<Aov> aovs;       // extra channels of the image, in order
   Bvh8 bvh;
 
   std::vector<glm::uvec4> triangles;   // shared/geometry.h

@@ -15,11 +15,23 @@ std::vector<BsdfIndex> read_children(const Plugin& plugin, size_t fewest, size_t
   return children;
 }
 
-/// The only texture: by its parameter's name, or in 0.6 by any name.
-TextureIndex read_texture(const Plugin& plugin) {
+/// The only texture, by any name.
+const XmlNode& find_texture(const Plugin& plugin) {
   const XmlNode* node = plugin.object("texture");
   if (!node) throw InputError(plugin.where(), fmt::format("{} holds no texture", plugin.type()));
-  return plugin.loader().texture(*node);
+  return *node;
+}
+
+/// The height map; the texture plugin `scale` of 0.6 around it goes into `scale`.
+TextureIndex read_height(const Plugin& plugin, double& scale) {
+  SceneLoader& loader = plugin.loader();
+  const XmlNode& node = find_texture(plugin);
+  if (!node.legacy || node.type() != "scale") return loader.texture(node);
+  const Plugin scaled(loader, node);
+  scale *= scaled.real("scale", 1);
+  const TextureIndex height = read_height(scaled, scale);
+  scaled.finish();
+  return height;
 }
 
 /// Whether light can pass to the other side.
@@ -63,7 +75,11 @@ BsdfKind load_blend(const Plugin& plugin) {
 BsdfKind load_normal_map(const Plugin& plugin) {
   NormalMapBsdf bsdf;
   bsdf.child = read_children(plugin, 1, 1)[0];
-  bsdf.normalmap = read_texture(plugin);
+  if (plugin.is_color("normalmap"))  // one normal everywhere
+    bsdf.normalmap = plugin.loader().constant_texture(
+        plugin.where("normalmap"), plugin.constant_color("normalmap", {}, ColorUse::kReflectance));
+  else
+    bsdf.normalmap = plugin.loader().texture(find_texture(plugin));
   bsdf.flip_invalid_normals = plugin.boolean("flip_invalid_normals", true);
   bsdf.use_shadowing_function = plugin.boolean("use_shadowing_function", true);
   return bsdf;
@@ -72,8 +88,8 @@ BsdfKind load_normal_map(const Plugin& plugin) {
 BsdfKind load_bump_map(const Plugin& plugin) {
   BumpMapBsdf bsdf;
   bsdf.child = read_children(plugin, 1, 1)[0];
-  bsdf.height = read_texture(plugin);
   bsdf.scale = plugin.real("scale", 1);
+  bsdf.height = read_height(plugin, bsdf.scale);
   bsdf.flip_invalid_normals = plugin.boolean("flip_invalid_normals", true);
   bsdf.use_shadowing_function = plugin.boolean("use_shadowing_function", true);
   return bsdf;

@@ -10,7 +10,10 @@ namespace tachylite {
 Texture load_texture(SceneLoader& loader, const XmlNode& node, TextureIndex index);
 BsdfKind load_bsdf(SceneLoader& loader, const XmlNode& node);
 Medium load_medium(SceneLoader& loader, const XmlNode& node);
-void load_shape(SceneLoader& loader, const XmlNode& node);
+/// A shape, or the copies that an `instance` makes of a group; `placement` acts after the shape's own
+/// to_world.
+void load_shape(SceneLoader& loader, const XmlNode& node, const dmat4& placement);
+void load_shape_group(SceneLoader& loader, const XmlNode& node, const dmat4& placement);
 /// An emitter of its own, or of the shape with that index.
 void load_emitter(SceneLoader& loader, const XmlNode& node, int shape = kNone);
 void load_sensor(SceneLoader& loader, const XmlNode& node);

@@ -1,13 +1,12 @@
 // PLY (Turk 1994, "The PLY polygon file format"), ASCII and binary of both byte orders.
 
-#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <limits>
 
 #include "base/read_file.h"
-#include "image/ldr.h"
 #include "scene/load_mesh.h"
+#include "scene/ply_attributes.h"
 #include "scene/ply_header.h"
 
 namespace tachylite {
@@ -86,47 +85,6 @@ class BinarySource {
   FileLocation where_;
 };
 
-/// An attribute of the mesh and the properties that it consists of.
-struct AttributeColumns {
-  MeshAttribute attribute;
-  std::vector<int> columns;
-};
-
-/// Properties that `reserved` does not name: r g b (or red green blue) as `color`, and groups such as heat_0
-/// or flow_x flow_y flow_z by what stands before the last underscore. Lists and names without one are left
-/// out.
-std::vector<AttributeColumns> find_attributes(const PlyElement& element, const char* prefix,
-                                              std::initializer_list<std::string_view> reserved) {
-  std::vector<AttributeColumns> found;
-  for (size_t i = 0; i < element.properties.size(); ++i) {
-    const PlyProperty& property = element.properties[i];
-    const std::string& name = property.name;
-    if (property.is_list || std::find(reserved.begin(), reserved.end(), name) != reserved.end()) continue;
-    std::string group;
-    for (const char* part : {"r", "g", "b", "red", "green", "blue"})
-      if (name == part) group = "color";
-    if (const size_t underscore = name.rfind('_'); underscore != name.npos)
-      group = name.substr(0, underscore);
-    if (group.empty()) continue;
-    group = prefix + group;
-    if (found.empty() || found.back().attribute.name != group) found.push_back({{group, 0, {}}, {}});
-    found.back().columns.push_back(static_cast<int>(i));
-    ++found.back().attribute.channels;
-  }
-  return found;
-}
-
-/// Integers count as fractions of the largest one, encoded as sRGB.
-void append(AttributeColumns& target, const PlyElement& element, const std::vector<double>& row) {
-  for (const int column : target.columns) {
-    const auto i = static_cast<size_t>(column);
-    const double largest = largest_integer(element.properties[i].type);
-    target.attribute.values.push_back(
-        largest > 0 ? srgb_to_linear(static_cast<float>(std::max(row[i], 0.0) / largest))
-                    : static_cast<float>(row[i]));
-  }
-}
-
 template <typename Source>
 class PlyReader {
  public:
@@ -184,8 +142,7 @@ class PlyReader {
     const auto normal = skip_normals_ ? std::vector<int>() : columns({"nx", "ny", "nz"});
     auto uv = columns({"u", "v"});
     if (uv.empty()) uv = columns({"s", "t"});
-    auto attributes =
-        find_attributes(element, "vertex_", {"x", "y", "z", "nx", "ny", "nz", "u", "v", "s", "t"});
+    auto attributes = find_ply_attributes(element, "vertex_");
 
     mesh_.positions.reserve(element.count);
     if (!normal.empty()) mesh_.normals.reserve(element.count);
@@ -203,7 +160,7 @@ class PlyReader {
         const double length = glm::length(n);
         mesh_.normals.emplace_back(length > 0 ? n / length : dvec3(0));
       }
-      for (AttributeColumns& attribute : attributes) append(attribute, element, row_);
+      for (PlyAttribute& attribute : attributes) append_row(attribute, element, row_);
     }
     keep(attributes);
   }
@@ -213,7 +170,7 @@ class PlyReader {
     if (list < 0) list = element.find("vertex_index");
     if (list < 0 || !element.properties[static_cast<size_t>(list)].is_list)
       throw InputError(element.where, "element face lacks the list vertex_indices");
-    auto attributes = find_attributes(element, "face_", {});
+    auto attributes = find_ply_attributes(element, "face_");
     mesh_.triangles.reserve(element.count);
     for (uint64_t i = 0; i < element.count; ++i) {
       const size_t first_triangle = mesh_.triangles.size();
@@ -230,13 +187,13 @@ class PlyReader {
       });
       if (corners < 3) source_.fail(fmt::format("face {} has {} corners, expected at least 3", i, corners));
       for (size_t t = first_triangle; t < mesh_.triangles.size(); ++t)
-        for (AttributeColumns& attribute : attributes) append(attribute, element, row_);
+        for (PlyAttribute& attribute : attributes) append_row(attribute, element, row_);
     }
     keep(attributes);
   }
 
-  void keep(std::vector<AttributeColumns>& attributes) {
-    for (AttributeColumns& found : attributes) {
+  void keep(std::vector<PlyAttribute>& attributes) {
+    for (PlyAttribute& found : attributes) {
       for (const float value : found.attribute.values)
         if (!std::isfinite(value))
           source_.fail(fmt::format("attribute {} holds {}", found.attribute.name, value));

@@ -39,15 +39,17 @@ CylinderShape load_cylinder(const Plugin& plugin, const Shape& shape) {
   return cylinder;
 }
 
-/// Reads the file later, together with others; the mesh is filled in then.
-void load_mesh_shape(SceneLoader& loader, const Plugin& plugin, Shape& shape, size_t index) {
+/// Reads the file later, together with others; the mesh is filled in then. Normals are computed where the
+/// shape's own to_world puts it: inside a group, that is in the group's space.
+void load_mesh_shape(SceneLoader& loader, const Plugin& plugin, Shape& shape, size_t index,
+                     const dmat4& to_world) {
   MeshRequest request;
   request.format = plugin.type() == "obj" ? MeshRequest::Format::kObj : MeshRequest::Format::kPly;
   request.file = plugin.file("filename");
   request.flip_tex_coords = plugin.boolean("flip_tex_coords", request.format == MeshRequest::Format::kObj);
   request.face_normals = shape.face_normals = plugin.boolean("face_normals", false);
-  const dmat3 linear(shape.to_world);
-  if (!request.face_normals && (!is_similarity(shape.to_world, 1e-6) || glm::determinant(linear) < 0))
+  const dmat3 linear(to_world);
+  if (!request.face_normals && (!is_similarity(to_world, 1e-6) || glm::determinant(linear) < 0))
     request.to_world = linear;
 
   std::string key = fmt::format("mesh {} {} {}", request.flip_tex_coords, request.face_normals,
@@ -78,17 +80,42 @@ BsdfIndex load_shape_bsdf(SceneLoader& loader, const Plugin& plugin, const Shape
   return loader.default_bsdf("diffuse", DiffuseBsdf{0.5});
 }
 
+/// Copies of a group's shapes. They share meshes, bsdfs and media, but each is a shape of the scene.
+void load_instance(SceneLoader& loader, const Plugin& plugin) {
+  const XmlNode* group = plugin.object("shape");
+  if (!group || group->type() != "shapegroup")
+    throw InputError(plugin.where(), "instance names no shapegroup");
+  const dmat4 to_world = plugin.transform("to_world");
+  plugin.finish();
+  load_shape_group(loader, *group, to_world);
+}
+
 }  // namespace
 
-void load_shape(SceneLoader& loader, const XmlNode& node) {
+void load_shape_group(SceneLoader& loader, const XmlNode& node, const dmat4& placement) {
+  const Plugin plugin(loader, node);
+  for (const XmlNode* shape : plugin.objects("shape")) {
+    if (shape->type() == "instance" || shape->type() == "shapegroup")
+      throw InputError(shape->where, fmt::format("{} cannot stand inside a shapegroup", shape->type()));
+    const size_t emitters = loader.scene.emitters.size();
+    load_shape(loader, *shape, placement);
+    if (loader.scene.emitters.size() > emitters)
+      throw InputError(loader.scene.emitters.back().where, "an emitter cannot stand inside a shapegroup");
+  }
+  plugin.finish();
+}
+
+void load_shape(SceneLoader& loader, const XmlNode& node, const dmat4& placement) {
   const Plugin plugin(loader, node);
   const std::string& type = plugin.type();
+  if (type == "instance") return load_instance(loader, plugin);
   const size_t index = loader.scene.shapes.size();
   Shape shape;
   shape.where = node.where;
   shape.id = node.id();
   shape.plugin = type;
-  shape.to_world = plugin.transform("to_world");
+  const dmat4 own_to_world = plugin.transform("to_world");
+  shape.to_world = placement * own_to_world;
   shape.flip_normals = plugin.boolean("flip_normals", false);
 
   // Its form.
@@ -103,7 +130,7 @@ void load_shape(SceneLoader& loader, const XmlNode& node) {
   } else if (type == "cylinder") {
     shape.kind = load_cylinder(plugin, shape);
   } else if (type == "obj" || type == "ply") {
-    load_mesh_shape(loader, plugin, shape, index);
+    load_mesh_shape(loader, plugin, shape, index, own_to_world);
   } else {
     return loader.refuse(node.where, fmt::format("the shape plugin {} is not supported", type));
   }

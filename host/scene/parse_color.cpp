@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/read_file.h"
 #include "scene/parse_value.h"
+#include "scene/plugin.h"
 #include "scene/text_cursor.h"
 
 namespace tachylite {
@@ -86,9 +87,25 @@ dvec3 read_spectrum_file(const std::filesystem::path& file, ColorUse use) {
   return samples.rgb(use);
 }
 
-dvec3 parse_spectrum(const SceneLoader& loader, const XmlNode& node, const std::string& owner, ColorUse use) {
-  if (node.has("type"))
+/// <spectrum type="srgb"> ..., as far as they mean something without wavelengths.
+dvec3 parse_spectrum_plugin(SceneLoader& loader, const XmlNode& node, ColorUse use) {
+  const Plugin plugin(loader, node);
+  dvec3 color(0);
+  if (plugin.type() == "srgb") {
+    color = plugin.constant_color("color", color, use);
+  } else if (plugin.type() == "uniform") {
+    color = dvec3(plugin.real("value", 1));
+  } else if (plugin.type() == "d65") {
+    color = plugin.constant_color("color", dvec3(1), ColorUse::kEmission) * plugin.real("scale", 1);
+  } else {
     throw InputError(node.where, fmt::format("the spectrum plugin {} is not supported", node.type()));
+  }
+  plugin.finish();
+  return color;
+}
+
+dvec3 parse_spectrum(SceneLoader& loader, const XmlNode& node, const std::string& owner, ColorUse use) {
+  if (node.has("type")) return parse_spectrum_plugin(loader, node, use);
   if (node.has("filename")) {
     if (node.has("value")) fail(node, owner, "either value or filename");
     return read_spectrum_file(loader.find_file(node, node.attribute("filename")), use);
@@ -108,7 +125,7 @@ double luminance(const dvec3& rgb) {
   return glm::dot(rgb, dvec3(.212671, .715160, .072169));
 }
 
-dvec3 parse_color(const SceneLoader& loader, const XmlNode& node, const std::string& owner, ColorUse use) {
+dvec3 parse_color(SceneLoader& loader, const XmlNode& node, const std::string& owner, ColorUse use) {
   dvec3 color;
   if (node.tag == "float" || node.tag == "integer") {
     const auto value = parse_real(node.attribute("value"));
@@ -124,7 +141,7 @@ dvec3 parse_color(const SceneLoader& loader, const XmlNode& node, const std::str
     throw InputError(node.where, fmt::format("{} of {} is a <{}>, expected a colour or a texture",
                                              node.name(), owner, node.tag));
   }
-  if (!node.children.empty())
+  if (!node.children.empty() && !node.has("type"))
     throw InputError(node.children.front().where, fmt::format("<{}> cannot hold other elements", node.tag));
   for (int c = 0; c < 3; ++c) {
     if (color[c] < 0) fail(node, owner, "no negative values");

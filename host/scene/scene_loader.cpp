@@ -38,7 +38,7 @@ void SceneLoader::load_used() {
   scene.integrator.where = tree_.root.where;
   const XmlNode* integrator = nullptr;
   for (const XmlNode& child : tree_.root.children) {
-    if (child.tag == "shape") load_shape(*this, child);
+    if (child.tag == "shape" && child.type() != "shapegroup") load_shape(*this, child, dmat4(1));
     if (child.tag == "emitter") load_emitter(*this, child);
     if (child.tag == "sensor") load_sensor(*this, child);
     if (child.tag != "integrator") continue;
@@ -47,6 +47,9 @@ void SceneLoader::load_used() {
     load_integrator(*this, child);
   }
   run_jobs();
+  check_mesh_attributes();
+  loaded_.clear();
+  textures_of_.clear();
 }
 
 /// Objects that nothing refers to must be right, too, but the scene does not hold them.
@@ -58,6 +61,7 @@ void SceneLoader::load_unused() {
     if (child.tag == "bsdf") bsdf(child);
     if (child.tag == "texture") texture(child);
     if (child.tag == "medium") medium(child);
+    if (child.tag == "shape") load_shape_group(*this, child, dmat4(1));  // others are used
     const bool definition = child.tag == "film" || child.tag == "sampler" || child.tag == "rfilter" ||
                             child.tag == "phase" || child.tag == "volume" || child.tag == "spectrum";
     if (!child.used && !(definition && child.has("id")))
@@ -65,6 +69,28 @@ void SceneLoader::load_unused() {
   }
   run_jobs();
   scene = std::move(used);
+}
+
+/// A shape must have the attributes that its bsdf and its emitter ask for.
+void SceneLoader::check_mesh_attributes() const {
+  const auto check = [&](const Shape& shape, TextureIndex texture) {
+    const auto* wanted =
+        std::get_if<MeshAttributeTexture>(&scene.textures[static_cast<size_t>(texture)].kind);
+    if (!wanted) return;
+    if (const auto* mesh = std::get_if<MeshShape>(&shape.kind))
+      for (const MeshAttribute& attribute : mesh->mesh->attributes)
+        if (attribute.name == wanted->name) return;
+    throw InputError(shape.where,
+                     fmt::format("{} has no attribute {}, which its material asks for ({})", shape.plugin,
+                                 wanted->name, scene.textures[static_cast<size_t>(texture)].where.str()));
+  };
+  for (const Shape& shape : scene.shapes) {
+    if (const auto textures = textures_of_.find(shape.bsdf); textures != textures_of_.end())
+      for (const TextureIndex texture : textures->second) check(shape, texture);
+    if (shape.emitter == kNone) continue;
+    const auto* area = std::get_if<AreaEmitter>(&scene.emitters[static_cast<size_t>(shape.emitter)].kind);
+    if (area && area->radiance.texture != kNone) check(shape, area->radiance.texture);
+  }
 }
 
 void SceneLoader::refuse(const FileLocation& where, const std::string& message) const {
@@ -109,22 +135,36 @@ int SceneLoader::once(const XmlNode& node, const std::function<int()>& load) {
 
 TextureIndex SceneLoader::texture(const XmlNode& node) {
   const XmlNode& target = resolve(node);
-  return once(target, [&] {
+  const TextureIndex read = once(target, [&] {
     const auto index = static_cast<TextureIndex>(scene.textures.size());
     scene.textures.emplace_back();
     Texture texture = load_texture(*this, target, index);
     scene.textures[static_cast<size_t>(index)] = std::move(texture);
     return index;
   });
+  textures_seen_.insert(read);
+  return read;
+}
+
+TextureIndex SceneLoader::constant_texture(const FileLocation& where, const dvec3& color) {
+  scene.textures.push_back({where, dmat3(1), CheckerboardTexture{color, color}});
+  return static_cast<TextureIndex>(scene.textures.size()) - 1;
 }
 
 BsdfIndex SceneLoader::bsdf(const XmlNode& node) {
   const XmlNode& target = resolve(node);
-  return once(target, [&] {
+  std::set<TextureIndex> outside;
+  outside.swap(textures_seen_);
+  const BsdfIndex read = once(target, [&] {
     BsdfKind kind = load_bsdf(*this, target);  // may append children
     scene.bsdfs.push_back({target.where, target.id(), target.type(), std::move(kind)});
-    return static_cast<BsdfIndex>(scene.bsdfs.size()) - 1;
+    const auto index = static_cast<BsdfIndex>(scene.bsdfs.size()) - 1;
+    textures_of_[index] = textures_seen_;
+    return index;
   });
+  textures_seen_ = std::move(outside);
+  textures_seen_.insert(textures_of_[read].begin(), textures_of_[read].end());
+  return read;
 }
 
 BsdfIndex SceneLoader::default_bsdf(const std::string& name, const BsdfKind& kind) {
@@ -159,7 +199,6 @@ void SceneLoader::run_jobs() {
   for (const Job& job : jobs_)
     if (job.finish) job.finish();
   jobs_.clear();
-  loaded_.clear();
 }
 
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) {

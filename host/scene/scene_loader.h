@@ -34,6 +34,8 @@ class SceneLoader {
   TextureIndex texture(const XmlNode& node);
   BsdfIndex bsdf(const XmlNode& node);
   MediumIndex medium(const XmlNode& node);
+  /// A texture of one colour.
+  TextureIndex constant_texture(const FileLocation& where, const dvec3& color);
   /// The bsdf of shapes that name none, made once under that name.
   BsdfIndex default_bsdf(const std::string& name, const BsdfKind& kind);
 
@@ -65,6 +67,7 @@ class SceneLoader {
   void run_jobs();
   void load_used();
   void load_unused();
+  void check_mesh_attributes() const;
   /// Memoises; finds circles of references.
   int once(const XmlNode& node, const std::function<int()>& load);
 
@@ -74,6 +77,8 @@ class SceneLoader {
   std::map<std::string, const XmlNode*> ids_;
   std::map<const XmlNode*, int> loaded_;
   std::set<const XmlNode*> loading_;
+  std::set<TextureIndex> textures_seen_;                     // by the bsdf that is being read
+  std::map<BsdfIndex, std::set<TextureIndex>> textures_of_;  // of a bsdf and those inside it
   std::map<std::string, BsdfIndex> defaults_;
   std::map<std::string, std::shared_ptr<void>> files_;
   std::vector<Job> jobs_;

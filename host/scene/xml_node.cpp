@@ -81,6 +81,11 @@ std::string to_snake_case(const std::string& name) {
   return snake;
 }
 
+std::string to_lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
 class Reader {
  public:
   explicit Reader(const std::map<std::string, std::string>& parameters) : parameters_(parameters) {}
@@ -184,9 +189,10 @@ class Reader {
     check_attributes(element, where);
     for (const pugi::xml_attribute attribute : element.attributes())
       node.attributes.emplace_back(attribute.name(), substitute(attribute.value(), where));
-    if (node.tag != "default")
-      for (auto& [name, value] : node.attributes)
-        if (name == "name") value = to_snake_case(value);
+    for (auto& [name, value] : node.attributes) {
+      if (name == "name" && node.tag != "default") value = to_snake_case(value);
+      if (name == "type") value = to_lower_case(value);
+    }
 
     if (node.tag == "include") {
       const std::string& name = node.attribute("filename");

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "kernel_spirv.h"
+#include "shared/aov.h"
 #include "shared/baked.h"
 #include "shared/material.h"
 
@@ -86,6 +87,9 @@ Kernels build_kernels(vulkan::Device& device, const vulkan::BindingTable& table,
     kernels.skipped.push_back("shade_medium");
   }
   kernels.write_film = make("write_film", "write_film", common);
+  const uint32_t moment = 1u << gpu::kAovMoment;
+  if (features.aovs & ~moment) kernels.write_aov = make("write_aov", "write_aov", with_sampler(features.union_constants()));
+  if (features.aovs & moment) kernels.write_moment = make("write_moment", "write_moment", common);
   return kernels;
 }
 

@@ -4,12 +4,12 @@
 #include <limits>
 
 #include "base/error.h"
-#include "base/parallel.h"
 #include "base/timer.h"
 #include "shared/bindings.h"
 #include "shared/counters.h"
 #include "shared/path_state.h"
 #include "wavefront/kernels.h"
+#include "wavefront/pass_sums.h"
 #include "wavefront/scene_buffers.h"
 
 namespace tachylite {
@@ -71,6 +71,7 @@ uint64_t MemoryPlan::total() const {
 
 struct Renderer::Impl {
   vulkan::Device& device;
+  const PackedScene& scene;
   const FeatureSet& features;
   RenderOptions options;
   std::optional<BakedGeometry> baked;  // one kernel for whole paths
@@ -81,25 +82,29 @@ struct Renderer::Impl {
   std::vector<Buffer> buffers;
   Buffer* counters = nullptr;
   Buffer* film_block = nullptr;
+  Buffer* aov_block = nullptr;  // null: no auxiliary channels
   std::unique_ptr<vulkan::BindingTable> table;
   Kernels kernels;
   vulkan::Commands commands;
 
-  Impl(vulkan::Device& d, const PackedScene& scene, const RenderOptions& o);
+  Impl(vulkan::Device& d, const PackedScene& s, const RenderOptions& o);
   void render_wave(WaveParams wave);
   void record_bounce(WaveParams& wave);
+  void dispatch_pixels(const Kernels::Pointer& kernel, const WaveParams& wave);
   void warm_up();
   uint64_t last_bounce() const;
   void take_counters();
 };
 
-Renderer::Impl::Impl(vulkan::Device& d, const PackedScene& scene, const RenderOptions& o)
-    : device(d), features(scene.features), options(o), params(scene.params), commands(d) {
+Renderer::Impl::Impl(vulkan::Device& d, const PackedScene& s, const RenderOptions& o)
+    : device(d), scene(s), features(scene.features), options(o), params(scene.params), commands(d) {
   baked = choose_baked(scene, options);
   params.capacity = capacity = capacity_for(params, options);
   size = wave_size(params, options, capacity, baked.has_value());
   params.seed = options.seed;
   params.end_sample = static_cast<uint32_t>(options.first_sample + options.samples);
+
+  params.aov_stride = size.pixels * size.blocks;
 
   Timer upload;
   std::vector<BufferPlan> plan = 
@@ -114,6 +119,7 @@ Renderer::Impl::Impl(vulkan::Device& d, const PackedScene& scene, const RenderOp
       made = &buffer;
       if (p.bindings[0].number == gpu::kBindCounters) counters = &buffer;
       if (p.bindings[0].number == gpu::kBindFilm) film_block = &buffer;
+      if (p.bindings[0].number == gpu::kBindAov) aov_block = &buffer;
     }
     for (vulkan::Binding binding : p.bindings) {
       binding.buffer = made;
@@ -150,6 +156,8 @@ void Renderer::Impl::warm_up() {
   touch(kernels.shade_escaped);
   for (const Kernels::Pointer& kernel : kernels.shade_surface) touch(kernel);
   touch(kernels.write_film);
+  touch(kernels.write_aov);
+  touch(kernels.write_moment);
   touch(kernels.follow_paths);
   commands.submit_and_wait();
 }
@@ -159,6 +167,13 @@ uint64_t Renderer::Impl::last_bounce() const {
   const bool lights_can_be_hit = features.area_lights() || features.environment();
   if (features.max_depth == std::numeric_limits<uint32_t>::max()) return features.max_depth;
   return lights_can_be_hit ? features.max_depth : std::max(features.max_depth, 1u) - 1;
+}
+
+// One lane a pixel and block.
+void Renderer::Impl::dispatch_pixels(const Kernels::Pointer& kernel, const WaveParams& wave) {
+  const uint32_t pixels = wave.pixel_count * wave.block_count;
+  if (kernel)
+    commands.dispatch(*kernel, (pixels + gpu::kWorkgroupSize - 1) / gpu::kWorkgroupSize, &wave, sizeof(wave));
 }
 
 void Renderer::Impl::record_bounce(WaveParams& wave) {
@@ -172,6 +187,7 @@ void Renderer::Impl::record_bounce(WaveParams& wave) {
     commands.dispatch(*kernels.prepare_dispatch, 1, &wave, sizeof(wave));
   };
   queue_dispatch(wave.bounce == 0 ? kernels.intersect_primary : kernels.intersect_closest, gpu::kDispatchClosest);
+  if (wave.bounce == 0) dispatch_pixels(kernels.write_aov, wave);
   prepare(gpu::kPrepareShade);
   queue_dispatch(kernels.shade_escaped, gpu::kDispatchQueue + gpu::kQueueEscaped);
   queue_dispatch(kernels.shade_emitter, gpu::kDispatchQueue + gpu::kQueueEmitter);
@@ -207,9 +223,8 @@ void Renderer::Impl::render_wave(WaveParams wave) {
     const auto* words = static_cast<const uint32_t*>(counters->mapped());
     if (words[gpu::kCounterQueue + wave.ray_queue] == 0) break;
   }
-  const uint32_t pixels = wave.pixel_count * wave.block_count;
-  commands.dispatch(*kernels.write_film, (pixels + gpu::kWorkgroupSize - 1) / gpu::kWorkgroupSize, &wave,
-                    sizeof(wave));
+  dispatch_pixels(kernels.write_moment, wave);
+  dispatch_pixels(kernels.write_film, wave);
   commands.submit_and_wait();
   take_counters();
 }
@@ -251,7 +266,8 @@ FilmBuffer Renderer::render() {
   const uint64_t end_block = (end_sample + kBlockSamples - 1) / kBlockSamples;
 
   FilmBuffer film(static_cast<int>(params.width), static_cast<int>(params.height));
-  std::vector<glm::vec4> sums(size_t{all_pixels} * size.blocks);  // of the pass, block by block, tile order
+  PassSums sums(params, size.blocks, r.scene);
+  film.set_extra_channels(sums.extra_channels());
   Timer timer;
   bool stop = false, interrupted = false;
   for (uint64_t block = first_block; block < end_block && !stop && !interrupted;) {
@@ -263,10 +279,8 @@ FilmBuffer Renderer::render() {
       wave.first_pixel = pixel;
       wave.pixel_count = std::min(size.pixels, all_pixels - pixel);
       r.render_wave(wave);
-      const auto* block_sums = static_cast<const glm::vec4*>(r.film_block->mapped());
-      for (uint32_t b = 0; b < wave.block_count; ++b)
-        std::copy_n(block_sums + size_t{b} * wave.pixel_count, wave.pixel_count,
-                    sums.begin() + static_cast<ptrdiff_t>(size_t{b} * all_pixels + pixel));
+      sums.take(wave, static_cast<const glm::vec4*>(r.film_block->mapped()),
+                r.aov_block ? static_cast<const glm::vec4*>(r.aov_block->mapped()) : nullptr);
       r.statistics.paths += uint64_t{wave.pixel_count} * wave.block_count * kBlockSamples;
 
       RenderProgress progress;
@@ -285,15 +299,7 @@ FilmBuffer Renderer::render() {
     // Add the pass to the film, in double.
     for (uint32_t b = 0; b < wave.block_count; ++b) {
       const uint64_t n = std::min<uint64_t>(kBlockSamples, end_sample - (block + b) * kBlockSamples);
-      parallel_for(0, params.height, 16, [&](size_t first, size_t last) {
-        for (size_t y = first; y < last; ++y)
-          for (size_t x = 0; x < params.width; ++x) {
-            const size_t tile = y / gpu::kTileSize * params.tiles_x + x / gpu::kTileSize;
-            const size_t inner = y % gpu::kTileSize * gpu::kTileSize + x % gpu::kTileSize;
-            const glm::vec4& sum = sums[size_t{b} * all_pixels + tile * kTilePixels + inner];
-            film.add_block(y * params.width + x, glm::dvec3(sum), n);
-          }
-      });
+      sums.add_block_to(film, b, n);
       film.finish_block(n);
     }
     block += wave.block_count;
@@ -302,6 +308,7 @@ FilmBuffer Renderer::render() {
   }
   r.statistics.render_seconds = timer.seconds();
   r.statistics.kernels = r.commands.kernel_times();
+  r.statistics.paths = uint64_t{params.width} * params.height * film.samples();
   return film;
 }
 

@@ -1,5 +1,7 @@
 #include "wavefront/scene_buffers.h"
 
+#include <bit>
+
 #include "shared/bindings.h"
 #include "shared/counters.h"
 #include "shared/path_state.h"
@@ -67,6 +69,8 @@ std::vector<BufferPlan> plan_buffers(const PackedScene& s, const gpu::RenderPara
        vulkan::Domain::kHost},
       {"film block", {storage(gpu::kBindFilm)}, nullptr, film_rows * sizeof(glm::vec4),
        vulkan::Domain::kHost},
+      {"auxiliary channels", {storage(gpu::kBindAov)}, nullptr,
+       film_rows * sizeof(glm::vec4) * static_cast<uint64_t>(std::popcount(s.features.aovs)), vulkan::Domain::kHost},
   };
 }
 

@@ -3,7 +3,8 @@
 //
 // Node: kBvhNodeRows rows of uvec4 (80 bytes), after Ylitie, Karras and Laine 2017, "Efficient Incoherent Ray
 // Traversal on GPUs Through Compressed Wide BVHs", with one leaf primitive per leaf slot and sparse children
-// (child node = child_base * 8 + slot, so that a stack entry is one word):
+// (child node = child_base * 8 + slot, so that a stack entry is one word; nodes with disjoint inner masks may share a
+// block of 8, which is why sparse children cost only an eighth more memory than dense ones):
 //   row 0: p.x, p.y, p.z (float bits: lower corner of the node's box); ex | ey << 8 | ez << 16 | inner_mask << 24,
 //          e = biased float exponent of the grid step of each axis
 //   row 1: child_base; leaf_base; curved_mask (8 bits: leaf slots that hold a curved primitive); leaf_mask (8 bits)

@@ -35,7 +35,7 @@ struct RenderParams {
   // Lights; see light/light.glsl
   uint environment_light;   // first row of the environment's record, kNoIndex when there is none
   float scene_radius;       // of the sphere around all geometry, centred at device-space origin + scene_centre
-  uint aov_count;
+  uint aov_stride;          // of the rows of kBindAov: pixels times blocks of a wave
   vec4 scene_centre;        // device space
 };
 

@@ -19,9 +19,8 @@ class CliCompare : public ProgramTest {
   }
   void render(const std::string& file, const std::string& seed, const std::string& sampler = "sobol",
               const std::string& depth = "8") {
-    const ProgramResult result =
-        tachylite({"render", kScene, "-D", "size=48", "-D", "max_depth=" + depth, "--spp", "64", "--seed", seed,
-                   "--sampler", sampler, "-o", file});
+    const ProgramResult result = tachylite({"render", kScene, "-D", "size=48", "-D", "max_depth=" + depth,
+                                            "--spp", "64", "--seed", seed, "--sampler", sampler, "-o", file});
     ASSERT_EQ(result.exit_code, 0) << result.err;
   }
 };
@@ -83,7 +82,8 @@ TEST_F(CliCompare, VarianceOfOneSampleFromAFile) {
     for (float& value : channel) value = 1.1f;  // one standard deviation off with 100 samples, everywhere
   write_exr(folder / "a.exr", image);
   const auto verdict = [&](const char* samples) {
-    return tachylite({"compare", "a.exr", "reference.exr", "--variance", "variance.exr", "--spp", samples}).exit_code;
+    return tachylite({"compare", "a.exr", "reference.exr", "--variance", "variance.exr", "--spp", samples})
+        .exit_code;
   };
   EXPECT_EQ(verdict("100"), 1);
   image.channels = std::vector(3, std::vector<float>(32 * 32));

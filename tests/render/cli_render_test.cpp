@@ -4,8 +4,8 @@
 #include <csignal>
 #include <fstream>
 
-#include <nlohmann/json.hpp>
 #include <stb/stb_image.h>
+#include <nlohmann/json.hpp>
 
 #include "base/read_file.h"
 #include "base/timer.h"
@@ -19,7 +19,8 @@ const std::string kScene = TACHYLITE_SOURCE_DIR "/scenes/cornell-box/scene.xml";
 
 class CliRender : public ProgramTest, public ::testing::WithParamInterface<const char*> {
  protected:
-  ProgramResult render(std::vector<std::string> options, const std::string& scene = kScene, ProgramOptions run = {}) {
+  ProgramResult render(std::vector<std::string> options, const std::string& scene = kScene,
+                       ProgramOptions run = {}) {
     std::vector<std::string> arguments = {GetParam(), scene, "-D", "size=24"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     run.folder = folder;
@@ -101,7 +102,9 @@ TEST_P(CliRender, SceneGivesTheSamplesAndAFlagWins) {
 
 TEST_P(CliRender, SeedDecidesTheImage) {
   ASSERT_EQ(render({"--spp", "8", "--seed", "3", "-o", "a.exr"}).exit_code, 0);
-  ASSERT_EQ(render({"--spp", "8", "--seed", "3", "--threads", "1", "--max-paths", "1000", "-o", "b.exr"}).exit_code, 0);
+  ASSERT_EQ(
+      render({"--spp", "8", "--seed", "3", "--threads", "1", "--max-paths", "1000", "-o", "b.exr"}).exit_code,
+      0);
   ASSERT_EQ(render({"--spp", "8", "--seed", "4", "-o", "c.exr"}).exit_code, 0);
   EXPECT_EQ(read_exr(folder / "a.exr").channels, read_exr(folder / "b.exr").channels);
   EXPECT_NE(read_exr(folder / "a.exr").channels, read_exr(folder / "c.exr").channels);
@@ -111,8 +114,8 @@ TEST_P(CliRender, StatisticsHaveAllKeys) {
   ASSERT_EQ(render({"--spp", "8", "--stats", "s.json"}).exit_code, 0);
   std::ifstream file(folder / "s.json");
   const nlohmann::json stats = nlohmann::json::parse(file);
-  for (const char* key : {"device", "spp", "paths", "seconds", "rays", "mpaths_per_s", "mrays_per_s", "nonfinite",
-                          "overflow", "triangles", "memory", "stages", "kernels"})
+  for (const char* key : {"device", "spp", "paths", "seconds", "rays", "mpaths_per_s", "mrays_per_s",
+                          "nonfinite", "overflow", "triangles", "memory", "stages", "kernels"})
     EXPECT_TRUE(stats.contains(key)) << key;
   for (const char* key : {"load", "bvh", "pack", "upload", "compile", "render", "write", "total"})
     EXPECT_GE(stats.at("seconds").at(key).get<double>(), 0) << key;

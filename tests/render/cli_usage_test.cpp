@@ -118,7 +118,8 @@ TEST_F(CliUsage, Devices) {
 
 TEST_F(CliUsage, BrokenScenesNameTheLine) {
   write("cut.xml", "<scene version=\"3.0.0\">\n  <sensor type=\"perspective\">\n");
-  write("word.xml", "<scene version=\"3.0.0\">\n  <integrator type=\"path\"/>\n  <shape type=\"torus\"/>\n</scene>\n");
+  write("word.xml",
+        "<scene version=\"3.0.0\">\n  <integrator type=\"path\"/>\n  <shape type=\"torus\"/>\n</scene>\n");
   for (const char* command : {"render", "reference", "verify", "info"}) {
     expect_refused({command, "cut.xml"}, "cut.xml:");
     expect_refused({command, "word.xml"}, "word.xml:3:");

@@ -123,10 +123,11 @@ struct TraversalCounts {
 
 /// One word a group of siblings, children in octant order, all hit leaves of a node at once: as the kernel
 /// does.
-inline TestHit traverse(const BvhInput& input, const Bvh8& bvh, const Ray& ray, TraversalCounts& counts) {
+inline TestHit traverse(const BvhInput& input, const Bvh8& bvh, const Ray& ray, TraversalCounts& counts,
+                        bool far_first = false) {
   TestHit best;
   ++counts.rays;
-  uint32_t octant = 7;  // 7 ^ sign bits
+  uint32_t octant = far_first ? 0 : 7;  // 7 ^ sign bits
   glm::dvec3 inverse;
   for (int a = 0; a < 3; ++a) {
     if (std::signbit(ray.d[a])) octant ^= 1u << a;

@@ -19,8 +19,10 @@ bool drain(int descriptor, std::string& text) {
   char buffer[4096];
   for (;;) {
     const ssize_t n = read(descriptor, buffer, sizeof buffer);
-    if (n > 0) text.append(buffer, static_cast<size_t>(n));
-    else return n < 0 && errno == EAGAIN;
+    if (n > 0)
+      text.append(buffer, static_cast<size_t>(n));
+    else
+      return n < 0 && errno == EAGAIN;
   }
 }
 
@@ -99,7 +101,8 @@ std::filesystem::path ProgramTest::write(const std::string& name, const std::str
 
 std::vector<std::string> ProgramTest::files() const {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
 }

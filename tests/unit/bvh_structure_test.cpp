@@ -233,7 +233,8 @@ TEST(BvhStructure, BadNumbersAreRefused) {
 }
 
 TEST(BvhStructure, ReinsertionLowersTheCost) {
-  for (const TestScene& s : {triangle_soup(20000, .05, 14), bumpy_sphere(60, 120, .05, 15), huge_and_tiny(5000, 16)}) {
+  for (const TestScene& s :
+       {triangle_soup(20000, .05, 14), bumpy_sphere(60, 120, .05, 15), huge_and_tiny(5000, 16)}) {
     BvhSettings settings;
     settings.reinsertion_passes = 0;
     expect_valid(s, settings);

@@ -108,6 +108,20 @@ TEST(BvhTraversal, FarFromTheOrigin) {
   expect_same_hits(s, 2000, 700);
 }
 
+TEST(BvhTraversal, NearChildrenComeFirst) {
+  for (const TestScene& s : {triangle_soup(5000, .1, 14), bumpy_sphere(40, 80, .1, 15)}) {
+    const Bvh8 bvh = build_bvh8(s.input());
+    TraversalCounts near_first, far_first;
+    for (const Ray& ray : make_rays(s.input(), bvh, 3000, 16)) {
+      const TestHit a = traverse(s.input(), bvh, ray, near_first);
+      const TestHit b = traverse(s.input(), bvh, ray, far_first, true);
+      ASSERT_EQ(a.t, b.t);
+    }
+    EXPECT_LT(static_cast<double>(near_first.nodes), 0.8 * static_cast<double>(far_first.nodes));
+    EXPECT_LE(near_first.stack, gpu::kBvhMaxDepth);
+  }
+}
+
 TEST(BvhTraversal, EmptyInputHitsNothing) {
   const TestScene s;
   const Bvh8 bvh = build_bvh8(s.input());

@@ -1,6 +1,7 @@
 #include <bit>
 #include <cstring>
 
+#include <fmt/ranges.h>
 #include <tiny_obj_loader.h>
 
 #include "load_support.h"
@@ -94,6 +95,25 @@ TEST_F(LoadMesh, PlyAscii) {
       "3 2 5 6\n4 0 1 2 3 7\n3 2 1 0 9";
   expect_square(read_ply(write("mesh.ply", text), false, false));
   EXPECT_EQ(read_ply(folder_ / "mesh.ply", true, false).uvs[3], glm::vec2(0, 0.75f));
+}
+
+TEST_F(LoadMesh, PlyAttributesFollowTheRulesOfNaming) {
+  std::string text = "ply\nformat ascii 1.0\nelement vertex 3\n";
+  const std::vector<const char*> names = {
+      "x",      "y",      "z",      "blue",   "green",  "red",   "quality", "flow_x", "flow_y", "flow_z",
+      "tint_r", "tint_g", "tint_b", "pair_0", "pair_1", "wet_1", "odd_q",   "heat_0", "n_12",   "skip_y"};
+  for (const char* name : names) text += fmt::format("property float {}\n", name);
+  text += "element face 1\nproperty list uchar int vertex_index\nend_header\n";
+  for (int i = 0; i < 3; ++i)
+    for (size_t k = 0; k < names.size(); ++k) text += fmt::format("{} ", 100 * i + static_cast<int>(k));
+  const Mesh mesh = read_ply(write("mesh.ply", text + "3 0 1 2"), false, false);
+  std::string found;
+  for (const MeshAttribute& attribute : mesh.attributes)
+    found +=
+        fmt::format("{}:{} ", attribute.name,
+                    fmt::join(attribute.values.begin(), attribute.values.begin() + attribute.channels, ","));
+  EXPECT_EQ(found,
+            "vertex_color:5,4,3 vertex_flow:7,8,9 vertex_tint_color:10,11,12 vertex_wet:15 vertex_heat:17 ");
 }
 
 TEST_F(LoadMesh, PlyBinaryOfBothByteOrders) {

@@ -283,6 +283,37 @@ TEST_F(LoadScene, SpellingsOfVersion06) {
   expect_near(only<ConductorBsdf>(scene.bsdfs).k.value, dvec3(3.91326, 2.45305, 2.14209) / 1.000277, 1e-12);
 }
 
+TEST_F(LoadScene, InstancesAreCopiesOfTheGroup) {
+  write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const Scene scene = load_body(
+      "<shape type=\"shapegroup\" id=\"g\"><shape type=\"obj\"><string name=\"filename\" value=\"mesh.obj\"/>"
+      "<transform name=\"to_world\"><translate x=\"1\"/></transform></shape><shape "
+      "type=\"Rectangle\"/></shape>"
+      "<shape type=\"instance\"><ref id=\"g\"/></shape><shape type=\"instance\"><ref id=\"g\"/>"
+      "<transform name=\"to_world\"><scale x=\"3\"/></transform></shape>");
+  ASSERT_EQ(scene.shapes.size(), 4);
+  EXPECT_EQ(scene.shapes[0].to_world[3][0], 1);
+  EXPECT_EQ(scene.shapes[2].to_world[3][0], 3);  // first the shape's own transform, then the instance's
+  EXPECT_EQ(std::get<MeshShape>(scene.shapes[0].kind).mesh, std::get<MeshShape>(scene.shapes[2].kind).mesh);
+  EXPECT_EQ(scene.shapes[1].plugin, "rectangle");
+}
+
+TEST_F(LoadScene, NormalAndHeightMaps) {
+  const Scene flat = load_body(
+      "<shape type=\"sphere\"><bsdf type=\"normalmap\"><spectrum type=\"srgb\" name=\"normalmap\">"
+      "<rgb name=\"color\" value=\"0.5, 0.5, 1\"/></spectrum><bsdf type=\"diffuse\"/></bsdf></shape>");
+  EXPECT_EQ(only<CheckerboardTexture>(flat.textures).color0, dvec3(0.5, 0.5, 1));
+  EXPECT_EQ(only<NormalMapBsdf>(flat.bsdfs).normalmap, 0);
+  const Scene scaled = load_body(
+      "<shape type=\"sphere\"><bsdf type=\"bumpmap\"><float name=\"scale\" value=\"3\"/><bsdf "
+      "type=\"diffuse\"/>"
+      "<texture type=\"scale\"><float name=\"scale\" value=\"5\"/><texture "
+      "type=\"checkerboard\"/></texture></bsdf></shape>",
+      "0.6.0");
+  EXPECT_EQ(only<BumpMapBsdf>(scaled.bsdfs).scale, 15);
+  EXPECT_EQ(scaled.textures.size(), 1);
+}
+
 TEST_F(LoadScene, PermissiveGoesOnWithoutTheUnknown) {
   const std::string xml =
       "<scene version=\"3.0.0\"><sensor type=\"perspective\"/><emitter type=\"sunsky\"/><emitter "

@@ -25,13 +25,15 @@ struct FakeRenderer {
     for (const char* name : {"R", "G", "B", "variance.R", "variance.G", "variance.B"}) image.add(name);
     const double sigma = deviation / std::sqrt(static_cast<double>(samples));
     // A variance estimated from `samples` samples has about samples - 1 degrees of freedom.
-    std::gamma_distribution<double> chi2(0.5 * static_cast<double>(samples - 1), 2.0 / static_cast<double>(samples - 1));
+    std::gamma_distribution<double> chi2(0.5 * static_cast<double>(samples - 1),
+                                         2.0 / static_cast<double>(samples - 1));
     std::normal_distribution<double> normal;
     for (size_t c = 0; c < 3; ++c) {
       for (int i = 0; i < kSize * kSize; ++i) {
         const double mean = (0.3 + 0.01 * (i % kSize)) * (1 + bias(i % kSize, i / kSize));
         image.channels[c][static_cast<size_t>(i)] = static_cast<float>(mean * (1 + sigma * normal(random)));
-        image.channels[c + 3][static_cast<size_t>(i)] = static_cast<float>(mean * mean * sigma * sigma * chi2(random));
+        image.channels[c + 3][static_cast<size_t>(i)] =
+            static_cast<float>(mean * mean * sigma * sigma * chi2(random));
       }
     }
     return image;
@@ -48,8 +50,8 @@ TEST(Verify, EqualExpectationsAgree) {
     EXPECT_EQ(verdict_with(seed, [](int, int) { return 0.0; }), Verification::Verdict::kAgree);
 }
 
-// Power of a bias at the stated size: 0.95 for the first look and again for the confirmation, so 0.9; fewer than 14
-// of 20 happen then with a probability of 2.4e-3, and for the bias of 1.5 % used here far below 1e-6.
+// Power of a bias at the stated size: 0.95 for the first look and again for the confirmation, so 0.9; fewer
+// than 14 of 20 happen then with a probability of 2.4e-3, and for the bias of 1.5 % used here far below 1e-6.
 TEST(Verify, FindsBiasOfTheMean) {
   int found = 0;
   for (unsigned seed = 0; seed < 20; ++seed)
