@@ -11,12 +11,16 @@
 
 namespace tachylite::test {
 
-Scene scene_from_elements(const std::string& elements) {
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / fmt::format("tachylite_test_{}.xml", getpid());
-  std::ofstream(file) << "<scene version=\"3.0.0\">\n" << elements << "\n</scene>\n";
-  Scene scene = load_scene(file);
-  std::filesystem::remove(file);
+Scene scene_from_elements(const std::string& elements,
+                          const std::vector<std::pair<std::string, std::string>>& files) {
+  static int count = 0;
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / fmt::format("tachylite_test_{}_{}", getpid(), count++);
+  std::filesystem::create_directory(folder);
+  for (const auto& [name, content] : files) std::ofstream(folder / name, std::ios::binary) << content;
+  std::ofstream(folder / "scene.xml") << "<scene version=\"3.0.0\">\n" << elements << "\n</scene>\n";
+  Scene scene = load_scene(folder / "scene.xml");
+  std::filesystem::remove_all(folder);
   return scene;
 }
 

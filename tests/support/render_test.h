@@ -3,6 +3,8 @@
 // Scenes as text, rendered on the test device.
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "pack/pack_scene.h"
 #include "scene/scene.h"
@@ -11,8 +13,9 @@
 
 namespace tachylite::test {
 
-/// Reads a scene given as the elements inside <scene>; files it names are relative to a temporary folder.
-Scene scene_from_elements(const std::string& elements);
+/// Reads a scene given as the elements inside <scene>. `files`: name and content of the files that it refers to.
+Scene scene_from_elements(const std::string& elements,
+                          const std::vector<std::pair<std::string, std::string>>& files = {});
 
 /// A sensor at `origin` that looks at `target`, with a box filter.
 std::string sensor_element(int width, int height, const std::string& origin = "0, 0, 4",
