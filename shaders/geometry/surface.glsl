@@ -173,11 +173,14 @@ Interaction load_interaction(vec4 hit, vec3 o, vec3 d) {
 }
 
 // Moves the origin of a ray that leaves `it` in direction w off the surface, to the side of w, by the bound of the
-// error of it.p (Pharr, Jakob and Humphreys, PBRT 4th ed., section 6.8.6): no scene epsilon.
-vec3 offset_origin(Interaction it, vec3 w) {
+// error of it.p (Pharr, Jakob and Humphreys, PBRT 4th ed., section 6.8.6): no scene epsilon. Where w stays on the side
+// of wo it also goes back towards wo by as much: close to a concave edge p may have been rounded behind the other
+// face, but the ray that came from there was in front of both.
+vec3 offset_origin(Interaction it, vec3 wo, vec3 w) {
   float distance = dot(abs(it.n_g), it.p_error);
-  vec3 offset = distance * it.n_g;
-  if (dot(w, it.n_g) < 0.0) offset = -offset;
+  bool front = dot(w, it.n_g) >= 0.0;
+  vec3 offset = front ? distance * it.n_g : -distance * it.n_g;
+  if ((dot(wo, it.n_g) >= 0.0) == front) offset += distance * wo;
   vec3 o = it.p + offset;
   o.x = offset.x > 0.0 ? next_float_up(o.x) : (offset.x < 0.0 ? next_float_down(o.x) : o.x);
   o.y = offset.y > 0.0 ? next_float_up(o.y) : (offset.y < 0.0 ? next_float_down(o.y) : o.y);

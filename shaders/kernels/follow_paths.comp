@@ -85,7 +85,7 @@ void main() {
     SurfaceBsdf bsdf = load_bsdf(it, -ray.d);
     vec4 choices = needs_choices() ? choice_sample(path_sampler, edges - 1u) : vec4(0.0);
     if (samples_lights(edges)) {
-      ShadowRay shadow = sample_direct_light(it, bsdf, beta.xyz, u_light, choices.x, selection_norm);
+      ShadowRay shadow = sample_direct_light(it, -ray.d, bsdf, beta.xyz, u_light, choices.x, selection_norm);
       BakedRay to_light = BakedRay(shadow.o, shadow.d, hit_id, shadow.target);
       bool wanted = alive && shadow.wanted;
       bool blocked = any_baked(to_light, shadow.target == kTargetInfinite ? infinity() : 1.0);
@@ -97,7 +97,7 @@ void main() {
     if (goes_on(edges)) {
       vec4 u = direction_sample(path_sampler, edges - 1u);
       u_light = u.zw;
-      NextRay next = sample_next_ray(it, bsdf, beta, edges, u.xy, choices.y, choices.z);
+      NextRay next = sample_next_ray(it, -ray.d, bsdf, beta, edges, u.xy, choices.y, choices.z);
       alive = alive && next.alive;
       ray = BakedRay(next.o, next.d, hit_id, kNoHit);
       pdf = next.pdf;

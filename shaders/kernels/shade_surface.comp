@@ -25,7 +25,7 @@ void main() {
   float selection_norm = 0.0;
   if (samples_lights(edges)) {
     vec2 u = path_sample(path_sampler, wave.bounce == 0u ? kGroupCamera : group_directions(wave.bounce - 1u)).zw;
-    ShadowRay ray = sample_direct_light(it, bsdf, beta.xyz, u, choices.x, selection_norm);
+    ShadowRay ray = sample_direct_light(it, -d, bsdf, beta.xyz, u, choices.x, selection_norm);
     bool wanted = live && ray.wanted;
     if (wanted && !is_finite(ray.contribution)) {
       atomicAdd(counters[kCounterNonfinite], 1u);
@@ -36,7 +36,7 @@ void main() {
 
   if (goes_on(edges)) {
     vec2 u = direction_sample(path_sampler, wave.bounce).xy;
-    NextRay ray = sample_next_ray(it, bsdf, beta, edges, u, choices.y, choices.z);
+    NextRay ray = sample_next_ray(it, -d, bsdf, beta, edges, u, choices.y, choices.z);
     bool alive = live && ray.alive;
     if (alive && !is_finite(ray.beta.xyz)) {
       atomicAdd(counters[kCounterNonfinite], 1u);

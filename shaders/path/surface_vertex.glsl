@@ -34,7 +34,7 @@ bool samples_lights(uint edges) {
 }
 
 // u: point on the light; u_select: which light.
-ShadowRay sample_direct_light(Interaction it, SurfaceBsdf bsdf, vec3 beta, vec2 u, float u_select,
+ShadowRay sample_direct_light(Interaction it, vec3 wo, SurfaceBsdf bsdf, vec3 beta, vec2 u, float u_select,
                               out float selection_norm) {
   LightSample light = sample_light(it.p, it.n_s, u, u_select, selection_norm);
   BsdfEval eval = eval_bsdf(bsdf, light.wi);
@@ -43,7 +43,7 @@ ShadowRay sample_direct_light(Interaction it, SurfaceBsdf bsdf, vec3 beta, vec2 
   ray.contribution = beta * eval.f * light.radiance * (weight / light.pdf);
   ray.wanted = light.pdf > 0.0 && ray.contribution != vec3(0.0);
   ray.target = light.target;
-  ray.o = offset_origin(it, light.wi);
+  ray.o = offset_origin(it, wo, light.wi);
   // Aim from the offset origin at the same target.
   ray.d = light.target == kTargetInfinite ? light.wi : (it.p - ray.o) + light.to_light;
   return ray;
@@ -58,7 +58,7 @@ bool has_roulette() { return roulette_depth < max_depth; }
 bool needs_choices() { return has_roulette() || light_selection > kSelectSingle || !only_single_lobes(); }
 
 // The next ray of a path with `edges` edges. u: direction; u_lobe, u_roulette: choices.
-NextRay sample_next_ray(Interaction it, SurfaceBsdf bsdf, vec4 beta, uint edges, vec2 u, float u_lobe,
+NextRay sample_next_ray(Interaction it, vec3 wo, SurfaceBsdf bsdf, vec4 beta, uint edges, vec2 u, float u_lobe,
                         float u_roulette) {
   BsdfSample s = sample_bsdf(bsdf, u, u_lobe);
   NextRay ray;
@@ -69,7 +69,7 @@ NextRay sample_next_ray(Interaction it, SurfaceBsdf bsdf, vec4 beta, uint edges,
     ray.alive = ray.alive && u_roulette < q;
     ray.beta.xyz /= q;
   }
-  ray.o = offset_origin(it, s.wi);
+  ray.o = offset_origin(it, wo, s.wi);
   ray.d = s.wi;
   ray.pdf = s.pdf;
   return ray;
