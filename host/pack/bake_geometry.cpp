@@ -24,7 +24,7 @@ bool paths_are_short(const FeatureSet& f) { return std::min(f.max_depth, f.roule
 bool fits(const PackedScene& scene) {
   const FeatureSet& f = scene.features;
   const bool flat = !f.vertex_normals && !f.vertex_uv && f.textures == 0 && !f.light_textures && f.aovs == 0;
-  return flat && f.media == 0 && f.classes.size() == 1 && paths_are_short(f) &&
+  return flat && f.media == 0 && !f.hide_emitters && f.classes.size() == 1 && paths_are_short(f) &&
          scene.bvh.leaf_info.size() <= gpu::kMaxBaked && !scene.bvh.leaf_info.empty();
 }
 

@@ -18,7 +18,7 @@ struct BakedGeometry {
 };
 
 /// Empty where the scene does not fit: more than kMaxBaked primitives, disks or cylinders, several material classes,
-/// anything that needs uv, tangents or vertex normals, media, or paths so long that they could exceed the iterations
+/// anything that needs uv, tangents or vertex normals, media, hidden emitters, or paths so long that they could exceed the iterations
 /// that Mesa 22.3.6 allows one invocation.
 std::optional<BakedGeometry> bake_geometry(const PackedScene& scene);
 

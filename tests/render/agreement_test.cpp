@@ -73,9 +73,9 @@ const std::vector<Feature>& features() {
       {"RectangleLight", kCommon + kBall + area_light("rectangle", R"(<rotate x="1" angle="90"/><translate y="2"/>)")},
       {"SphereLight", kCommon + kBall + area_light("sphere", R"(<scale value="0.3"/><translate x="1" y="1.5"/>)")},
       {"DiskLight", kCommon + kBall + area_light("disk", R"(<rotate x="1" angle="70"/><translate y="2"/>)")},
-      {"CylinderLight", kCommon + kBall + area_light("cylinder", R"(<scale value="0.3"/><translate x="1" y="1.2"/>)")},
+      {"CylinderLight", kCommon + kBall + area_light("cylinder", R"(<scale value="0.7"/><translate x="1" y="1.2"/>)") + kSky},
       {"CubeLight", kCommon + kBall + area_light("cube", R"(<scale value="0.3"/><translate x="1" y="1.5"/>)")},
-      {"MeshLight", kCommon + kBall + mesh(R"(<emitter type="area"><rgb name="radiance" value="3, 4, 5"/></emitter>)"),
+      {"MeshLight", kCommon + mesh(R"(<emitter type="area"><rgb name="radiance" value="3, 4, 5"/></emitter>)"),
        {{"m.obj", kPlainObj}}},
       {"ManyLights", kCommon + kBall + kSky + kPoint +
                          area_light("sphere", R"(<scale value="0.2"/><translate x="-1" y="1.5"/>)", "20, 1, 1") +
@@ -132,7 +132,7 @@ TEST_P(Agreement, DeviceAndReference) {
     return to_image(image);
   };
   VerifyOptions options;
-  options.most_samples = 4096;
+  options.most_samples = 8192;
   const Verification result = verify(on_device, on_reference, options);
   EXPECT_EQ(result.verdict, Verification::Verdict::kAgree)
       << result.samples << " samples\n" << describe(result.comparison);
