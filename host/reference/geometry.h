@@ -41,7 +41,7 @@ class Geometry {
  public:
   explicit Geometry(const Scene& scene);
 
-  /// The nearest hit with 0 < t < ray.t_max. `skip` is asked for each candidate shape: true means not there.
+  /// The nearest hit with 0 < t < ray.t_max.
   std::optional<SurfacePoint> intersect(const Ray& ray) const { return intersect(ray, false); }
   /// The same, blind to shapes that carry an emitter (hide_emitters).
   std::optional<SurfacePoint> intersect_without_emitters(const Ray& ray) const {

@@ -94,11 +94,12 @@ dvec3 trace_volpath(const World& world, const Ray& camera_ray, MediumIndex mediu
     // A collision in the medium.
     if (medium != kNone) {
       const Ray segment{ray.origin, ray.direction, hit ? hit->t : ray.t_max};
-      const FreeFlight flight = world.media.sample_free_flight(medium, segment, throughput, random);
-      if (flight.t) {
+      const std::optional<double> collision =
+          world.media.sample_free_flight(medium, segment, throughput, random);
+      if (collision) {
         ++depth;
         if (is_black(throughput) || (integrator.max_depth >= 0 && depth >= integrator.max_depth)) break;
-        const dvec3 p = ray.origin + *flight.t * ray.direction, wo = -ray.direction;
+        const dvec3 p = ray.origin + *collision * ray.direction, wo = -ray.direction;
         const PhaseFunction& phase = world.media.phase(medium);
         if (sample_lights) {
           add_direct_light(

@@ -9,7 +9,7 @@ Envmap::Envmap(const EnvironmentEmitter& emitter)
       to_local_(glm::inverse(dmat3(emitter.to_world))),
       to_world_(emitter.to_world),
       width_(emitter.bitmap->width),
-      height_(emitter.bitmap->height) {
+      height_(std::max(2, emitter.bitmap->height)) {  // a single row serves as two
   double sum = 0;
   for (int y = 0; y + 1 < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
@@ -22,7 +22,8 @@ Envmap::Envmap(const EnvironmentEmitter& emitter)
 
 dvec3 Envmap::texel(int x, int y) const {
   const TexelFormat format = emitter_.srgb ? TexelFormat::kUnorm8Srgb : TexelFormat::kUnorm8Linear;
-  return emitter_.scale * texel_color(*emitter_.bitmap, format, x % width_, y);
+  return emitter_.scale *
+         texel_color(*emitter_.bitmap, format, x % width_, std::min(y, emitter_.bitmap->height - 1));
 }
 
 double Envmap::cell_solid_angle(int y) const {

@@ -39,12 +39,12 @@ Media::Media(const Scene& scene) : scene_(scene) {
   }
 }
 
-FreeFlight Media::sample_free_flight(MediumIndex medium, const Ray& ray, dvec3& throughput,
-                                     Random& random) const {
+std::optional<double> Media::sample_free_flight(MediumIndex medium, const Ray& ray, dvec3& throughput,
+                                                Random& random) const {
   const auto index = static_cast<size_t>(medium);
   if (!grids_[index]) {
     const auto& homogeneous = std::get<HomogeneousMedium>(scene_.media[index].kind);
-    return {sample_homogeneous(homogeneous, ray.t_max, throughput, random)};
+    return sample_homogeneous(homogeneous, ray.t_max, throughput, random);
   }
   // Delta tracking (Woodcock et al. 1965) with the majorant of all channels; a collision is real with the
   // probability of the chosen channel, and both outcomes are weighted by the probability mixed over channels.
@@ -60,11 +60,11 @@ FreeFlight Media::sample_free_flight(MediumIndex medium, const Ray& ray, dvec3& 
     const double real = glm::dot(probability, sigma_t) / g.majorant;
     if (random.uniform() < sigma_t[channel] / g.majorant) {
       throughput *= g.albedo.value(p) * sigma_t / (real * g.majorant);
-      return {t};
+      return t;
     }
     throughput *= (g.majorant - sigma_t) / ((1 - real) * g.majorant);
   }
-  return {};
+  return std::nullopt;
 }
 
 dvec3 Media::transmittance(MediumIndex medium, const Ray& ray, Random& random) const {

@@ -20,18 +20,14 @@
 
 namespace tachylite::reference {
 
-/// Outcome of a free flight: a real collision at `t`, or none before the end of the ray.
-struct FreeFlight {
-  std::optional<double> t;
-};
-
 class Media {
  public:
   explicit Media(const Scene& scene);
 
-  /// Flies along the ray (unit direction) up to ray.t_max. Multiplies `throughput` by sigma_s T / density at
-  /// a collision, by T / probability at the end.
-  FreeFlight sample_free_flight(MediumIndex medium, const Ray& ray, dvec3& throughput, Random& random) const;
+  /// Flies along the ray (unit direction) to a real collision, or to ray.t_max without one. Multiplies
+  /// `throughput` by sigma_s T / density at a collision, by T / probability at the end.
+  std::optional<double> sample_free_flight(MediumIndex medium, const Ray& ray, dvec3& throughput,
+                                           Random& random) const;
 
   /// An unbiased estimate of the transmittance from t = 0 to ray.t_max: exact in homogeneous media, by ratio
   /// tracking (Novak et al. 2014) in others. The direction may be of any length.
