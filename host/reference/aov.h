@@ -1,20 +1,19 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "reference/world.h"
+#include "scene/aov.h"
 
 namespace tachylite::reference {
 
-/// Mitsuba's arbitrary output variables of the first surface that a camera ray hits, null surfaces included.
-///   albedo .R .G .B   depth .T (distance along the ray from the near clip)   position .X .Y .Z   uv .U .V
-///   geo_normal, sh_normal (or normal; with normal and bump maps), dp_du, dp_dv .X .Y .Z
-///   prim_index .I (triangle of its mesh)   shape_index .I
+/// Mitsuba's arbitrary output variables (types and names: scene/aov.h) of the first surface that a camera ray hits,
+/// null surfaces included. depth is measured along the ray from the near clip plane; sh_normal has normal and bump
+/// maps in it; prim_index is the triangle's number in its mesh.
 class Aovs {
  public:
-  /// Each of `specifications` is "type" or "name:type", several may be joined by commas. Throws InputError.
+  /// As parse_aovs. Throws InputError.
   explicit Aovs(const std::vector<std::string>& specifications);
 
   const std::vector<std::string>& channel_names() const { return names_; }
@@ -22,7 +21,7 @@ class Aovs {
   void evaluate(const World& world, const Ray& camera_ray, std::vector<double>& values) const;
 
  private:
-  std::vector<std::string> types_;
+  std::vector<Aov> aovs_;
   std::vector<std::string> names_;
 };
 
