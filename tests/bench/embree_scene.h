@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+
+#include <embree3/rtcore.h>
+
+#include "support/mesh.h"
+#include "support/ray.h"
+
+namespace tachylite::bench {
+
+/// The yardstick: a mesh in Embree, built for speed of tracing (RTC_BUILD_QUALITY_HIGH).
+class EmbreeScene {
+ public:
+  explicit EmbreeScene(const test::Mesh& mesh);
+  ~EmbreeScene();
+  EmbreeScene(const EmbreeScene&) = delete;
+  EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+  RTCScene handle() const { return scene_; }
+  /// rtcIntersect1 and rtcOccluded1 of each ray, on `threads` threads. Hit ids are triangle numbers (kNoHit: none);
+  /// an occluded ray has id 0. `ignore` is not looked at.
+  void closest(std::span<const test::Ray> rays, std::span<test::Hit> hits, int threads) const;
+  void occluded(std::span<const test::Ray> rays, std::span<test::Hit> hits, int threads) const;
+
+ private:
+  RTCDevice device_ = nullptr;
+  RTCScene scene_ = nullptr;
+};
+
+}  // namespace tachylite::bench

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "support/mesh.h"
+
+namespace tachylite::bench {
+
+struct Camera {
+  glm::vec3 eye{0}, target{0};
+  float fov_degrees = 60;  // of the square image's width
+  uint32_t resolution = 512;
+};
+
+struct RectangleLight {
+  glm::vec3 corner{0}, edge_u{0}, edge_v{0};
+};
+
+/// A closed scene made in code: every ray from the inside hits something. z is up.
+struct Scene {
+  std::string name;
+  test::Mesh mesh;
+  Camera camera;
+  RectangleLight light;  // where shadow rays end; lies in front of the ceiling
+};
+
+/// "cornell": 38 triangles, the box closed behind the camera. "room": 240 thousand triangles, 60 displaced spheres,
+/// boxes and thin columns. "big": the same with spheres of 32 thousand triangles each, 1.9 million in all.
+/// Throws std::invalid_argument for another name.
+Scene make_scene(const std::string& name);
+std::vector<std::string> scene_names();
+
+}  // namespace tachylite::bench
