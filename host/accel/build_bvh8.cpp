@@ -100,9 +100,7 @@ void write_leaves(const BvhInput& input, const std::vector<TrianglePair>& pairs,
       if (primitive < pairs.size()) {
         const TrianglePair& pair = pairs[primitive];
         const auto v = pair_vertices(input, pair).v;
-        row[0] = {v[0], v[1].x};
-        row[1] = {v[1].y, v[1].z, v[2].x, v[2].y};
-        row[2] = {v[2].z, v[3]};
+        for (int a = 0; a < 3; ++a) row[a] = {v[0][a], v[1][a], v[2][a], v[3][a]};
         const bool lone = pair.second == TrianglePair::kNoTriangle;
         bvh.leaf_info[i] = {pair.first, lone ? pair.first : pair.second, gpu::kLeafTriangles,
                             lone ? pair.rotation * 5 : pair.rotation};
@@ -129,7 +127,7 @@ Bvh8 build_bvh8(const BvhInput& input, const BvhSettings& settings) {
   check_curved(input);
   const Pairing pairing = pair_triangles(input, kMaxAreaRatio);
   const size_t leaves = pairing.pairs.size() + input.curved.size();
-  const auto first_curved = static_cast<uint32_t>(pairing.pairs.size());
+  const CurvedLeaves curved{static_cast<uint32_t>(pairing.pairs.size()), input.curved};
   stats.pair_seconds = timer.seconds();
 
   timer = Timer();
@@ -142,11 +140,11 @@ Bvh8 build_bvh8(const BvhInput& input, const BvhSettings& settings) {
   const ExpectedVisits visits = expected_visits(binary);
 
   timer = Timer();
-  FlatNodes flat = flatten_bvh8(binary, first_curved);
+  FlatNodes flat = flatten_bvh8(binary, curved);
   if (flat.depth > static_cast<int>(gpu::kBvhMaxDepth)) {
     // A wide tree is never deeper than the binary one.
     binary = build_binary_bvh(bound_primitives(input, pairing.pairs), settings.bins, gpu::kBvhMaxDepth);
-    flat = flatten_bvh8(binary, first_curved);
+    flat = flatten_bvh8(binary, curved);
   }
   CHECK_LE(flat.depth, static_cast<int>(gpu::kBvhMaxDepth));
   bvh.nodes = std::move(flat.rows);

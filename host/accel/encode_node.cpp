@@ -3,17 +3,27 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace tachylite {
 
-QuantisationGrid::QuantisationGrid(float lo, float hi) : p(lo) {
+QuantisationGrid::QuantisationGrid(float lo, float hi) : exponent(1) {
+  // The margin may move p by more than a step, where floats are sparse: the range to cover begins at p.
+  set_step(lo);
   int e = 0;
-  std::frexp((static_cast<double>(hi) - lo) / 255, &e);
+  std::frexp((static_cast<double>(hi) - p) / 255, &e);
   exponent = static_cast<uint32_t>(std::clamp(e - 1 + 127, 1, 254));
   for (;; ++exponent) {
-    step = std::bit_cast<float>(exponent << 23);
+    set_step(lo);
     if (at_least(255, hi)) break;
   }
+}
+
+void QuantisationGrid::set_step(float lo) {
+  step = std::bit_cast<float>(exponent << 23);
+  const double lowered = static_cast<double>(lo) - margin();
+  p = static_cast<float>(lowered);
+  if (p > lowered) p = std::nextafter(p, -std::numeric_limits<float>::infinity());
 }
 
 uint32_t QuantisationGrid::lower(float x) const {
@@ -28,13 +38,13 @@ uint32_t QuantisationGrid::upper(float x) const {
   return q;
 }
 
-ChildAreas encode_node(const std::vector<BinaryNode>& nodes, const WideNode& wide, uint32_t first_curved,
+ChildAreas encode_node(const std::vector<BinaryNode>& nodes, const WideNode& wide, const CurvedLeaves& curved,
                        glm::uvec4* rows) {
   const BinaryNode& n = nodes[wide.binary];
   const std::array<QuantisationGrid, 3> grid{QuantisationGrid(n.lo[0], n.hi[0]),
                                              QuantisationGrid(n.lo[1], n.hi[1]),
                                              QuantisationGrid(n.lo[2], n.hi[2])};
-  uint32_t inner = 0, leaf = 0, curved = 0;
+  uint32_t inner = 0, leaf = 0, kinds = 0;
   std::array<std::array<uint32_t, 2>, 3> lo, hi;  // [axis][slots 0-3, 4-7]
   lo.fill({0xffffffffu, 0xffffffffu});
   hi.fill({0, 0});
@@ -52,12 +62,12 @@ ChildAreas encode_node(const std::vector<BinaryNode>& nodes, const WideNode& wid
     }
     (child.is_leaf ? leaf : inner) |= 1u << s;
     (child.is_leaf ? areas.leaves : areas.inner) += half_area(quantised);
-    if (child.is_leaf && child.first >= first_curved) curved |= 1u << s;
+    if (child.is_leaf) kinds |= curved.kind(child.first) << (2 * s);
   }
   rows[0] = {std::bit_cast<uint32_t>(grid[0].p), std::bit_cast<uint32_t>(grid[1].p),
              std::bit_cast<uint32_t>(grid[2].p),
              grid[0].exponent | grid[1].exponent << 8 | grid[2].exponent << 16 | inner << 24};
-  rows[1] = {wide.child_base, wide.leaf_base, curved, leaf};
+  rows[1] = {wide.child_base, wide.leaf_base, 0, leaf | kinds << 16};
   rows[2] = {lo[0][0], lo[0][1], lo[1][0], lo[1][1]};
   rows[3] = {lo[2][0], lo[2][1], hi[0][0], hi[0][1]};
   rows[4] = {hi[1][0], hi[1][1], hi[2][0], hi[2][1]};

@@ -56,8 +56,8 @@ struct Part {
 
 class Flattener {
  public:
-  Flattener(const std::vector<BinaryNode>& nodes, uint32_t first_curved)
-      : nodes_(nodes), first_curved_(first_curved), collapse_(nodes) {}
+  Flattener(const std::vector<BinaryNode>& nodes, const CurvedLeaves& curved)
+      : nodes_(nodes), curved_(curved), collapse_(nodes) {}
 
   FlatNodes run() {
     plan_parts();
@@ -162,14 +162,14 @@ class Flattener {
       wide.leaf_base += part.first_leaf;
       if (wide.binary != part.root) wide.address += part.first_block * kBvhWidth;
       const ChildAreas areas =
-          encode_node(nodes_, wide, first_curved_, &flat_.rows[size_t{wide.address} * gpu::kBvhNodeRows]);
+          encode_node(nodes_, wide, curved_, &flat_.rows[size_t{wide.address} * gpu::kBvhNodeRows]);
       part.inner_area += areas.inner;
       part.leaf_area += areas.leaves;
     }
   }
 
   const std::vector<BinaryNode>& nodes_;
-  const uint32_t first_curved_;
+  const CurvedLeaves& curved_;
   const Bvh8Collapse collapse_;
   std::vector<Part> parts_;
   FlatNodes flat_;
@@ -189,8 +189,8 @@ FlatNodes empty_root() {
 
 }  // namespace
 
-FlatNodes flatten_bvh8(const BinaryBvh& bvh, uint32_t first_curved) {
-  return bvh.nodes.empty() ? empty_root() : Flattener(bvh.nodes, first_curved).run();
+FlatNodes flatten_bvh8(const BinaryBvh& bvh, const CurvedLeaves& curved) {
+  return bvh.nodes.empty() ? empty_root() : Flattener(bvh.nodes, curved).run();
 }
 
 }  // namespace tachylite

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 
 #include "accel/binary_bvh.h"
+#include "accel/encode_node.h"
 
 namespace tachylite {
 
@@ -20,9 +21,8 @@ struct FlatNodes {
          leaf_visits = 0;  // expected, of a random line that hits the root's box; quantised boxes
 };
 
-/// Collapses to 8-wide nodes, orders their children and encodes them. Primitives from first_curved on are
-/// curved. Deterministic for any number of threads. Throws RenderError if there are more nodes than can be
-/// addressed.
-FlatNodes flatten_bvh8(const BinaryBvh& bvh, uint32_t first_curved);
+/// Collapses to 8-wide nodes, orders their children and encodes them. Deterministic for any number of threads.
+/// Throws RenderError if there are more nodes than can be addressed.
+FlatNodes flatten_bvh8(const BinaryBvh& bvh, const CurvedLeaves& curved);
 
 }  // namespace tachylite

@@ -66,8 +66,8 @@ class Baker {
     if (kind == gpu::kLeafSphere) return add_sphere(leaf, info);
     if (kind != gpu::kLeafTriangles) return false;
     const glm::vec4* r = &scene_.bvh.leaves[size_t{leaf} * gpu::kBvhLeafRows];
-    const std::array<dvec3, 4> v = {dvec3(r[0]), dvec3(r[0].w, r[1].x, r[1].y), dvec3(r[1].z, r[1].w, r[2].x),
-                                    dvec3(r[2].y, r[2].z, r[2].w)};
+    std::array<dvec3, 4> v;
+    for (int k = 0; k < 4; ++k) v[static_cast<size_t>(k)] = {r[0][k], r[1][k], r[2][k]};
     if (info.x == info.y) return add_triangle(v[0], v[1], v[2], 2 * leaf, info.x);
     const double size = std::max(glm::length(v[2] - v[0]), glm::length(v[3] - v[1]));
     const bool parallelogram = glm::length(v[0] + v[2] - v[1] - v[3]) < 1e-6 * size;

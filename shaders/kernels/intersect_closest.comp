@@ -5,13 +5,15 @@
 layout(local_size_x = 64) in;
 #include "base/features.glsl"
 #include "base/queues.glsl"
+#include "geometry/bvh.glsl"
+#include "geometry/trace_settings.glsl"
 #include "shared/geometry.h"
 layout(set = 0, binding = kBindLeafInfo) uniform usamplerBuffer leaf_info;
-#include "geometry/bvh.glsl"
 
-void main() {
-  uint i = gl_GlobalInvocationID.x;
-  if (i >= queue_length(wave.ray_queue)) return;
+// Hit ids of this workgroup's rays.
+shared uint hit_ids[kRaysPerGroup];
+
+TraceRay fetch_ray(uint i) {
   uint slot = load_queue(wave.ray_queue, i);
   vec4 o = load_path(kPathOrigin, slot), d = load_path(kPathDirection, slot);
 #ifdef PRIMARY
@@ -19,26 +21,50 @@ void main() {
 #else
   float tmax = uintBitsToFloat(0x7f800000u);
 #endif
-  TraceHit hit = trace_ray(TraceRay(o.xyz, d.xyz, tmax, floatBitsToUint(o.w), kNoHit), false);
+  return TraceRay(o.xyz, d.xyz, tmax, floatBitsToUint(o.w), kNoHit);
+}
+
+bool is_emitter(uint hit) { return (texelFetch(leaf_info, int(hit >> 1u)).z & kLeafEmits) != 0u; }
+
+void store_hit(uint i, TraceHit hit) {
 #ifdef PRIMARY
   // Area lights are transparent to the camera.
-  if (hide_emitters)
-    for (int k = 0; k < 8; ++k)
-      if (hit.id != kNoHit && (texelFetch(leaf_info, int(hit.id >> 1u)).z & kLeafEmits) != 0u) {
-        TraceRay rest = TraceRay(o.xyz + hit.t * d.xyz, d.xyz, tmax - hit.t, hit.id, kNoHit);
-        float before = hit.t;
-        hit = trace_ray(rest, false);
-        hit.t += before;
-      }
+  if (hide_emitters) {
+    TraceRay ray = fetch_ray(i);
+    bool hidden = hit.id != kNoHit && is_emitter(hit.id);
+    for (int k = 0; k < 8 && hidden; ++k) {
+      TraceRay rest = TraceRay(ray.o + hit.t * ray.d, ray.d, ray.tmax - hit.t, hit.id, kNoHit);
+      float before = hit.t;
+      hit = trace_ray(rest, false);
+      hit.t += before;
+      hidden = hit.id != kNoHit && is_emitter(hit.id);
+    }
+  }
 #endif
-  store_path(kPathHit, slot, vec4(uintBitsToFloat(hit.id), hit.b1, hit.b2, hit.t));
+  store_path(kPathHit, load_queue(wave.ray_queue, i), vec4(uintBitsToFloat(hit.id), hit.b1, hit.b2, hit.t));
+  hit_ids[i % kRaysPerGroup] = hit.id;
+}
 
-  bool found = hit.id != kNoHit;
-  uvec4 info = found ? texelFetch(leaf_info, int(hit.id >> 1u)) : uvec4(0u);
-  uint path_class = (info.z >> kLeafClassShift) & kLeafClassMask;
-  bool counts = !(hide_emitters && wave.bounce == 0u);
-  if (has_area_light()) append_to_queue(kQueueEmitter, found && counts && (info.z & kLeafEmits) != 0u, slot);
-  if (has_escaped_light()) append_to_queue(kQueueEscaped, !found && counts, slot);
-  bool goes_on = wave.bounce + 1u < max_depth;
-  for (uint c = 0u; c < class_count; ++c) append_to_queue(kQueueSurface + c, found && goes_on && path_class == c, slot);
+#include "geometry/trace_rays.glsl"
+
+void main() {
+  uint count = queue_length(wave.ray_queue);
+  trace_rays(count, false);
+
+  // All lanes again have a ray each, in the order of the queue.
+  subgroupMemoryBarrierShared();
+  subgroupBarrier();
+  bool counts = !(hide_emitters && wave.bounce == 0u), goes_on = wave.bounce + 1u < max_depth;
+  for (uint k = 0u; k < rays_per_lane(); ++k) {
+    uint i = first_ray() + k * gl_SubgroupSize + gl_SubgroupInvocationID;
+    uint id = i < count ? hit_ids[i % kRaysPerGroup] : kNoHit;
+    uint slot = i < count ? load_queue(wave.ray_queue, i) : 0u;
+    bool found = id != kNoHit;
+    uint info = texelFetch(leaf_info, found ? int(id >> 1u) : 0).z;
+    uint path_class = (info >> kLeafClassShift) & kLeafClassMask;
+    if (has_area_light()) append_to_queue(kQueueEmitter, found && counts && (info & kLeafEmits) != 0u, slot);
+    if (has_escaped_light()) append_to_queue(kQueueEscaped, i < count && !found && counts, slot);
+    for (uint c = 0u; c < class_count; ++c)
+      append_to_queue(kQueueSurface + c, found && goes_on && path_class == c, slot);
+  }
 }

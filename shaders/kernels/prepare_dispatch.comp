@@ -17,8 +17,8 @@ void main() {
   if (wave.mode == kPrepareTrace) {
     // Shading (or the camera) has queued rays for wave.bounce and shadow rays.
     uint rays = counters[kCounterQueue + wave.ray_queue], shadow = counters[kCounterShadow];
-    set_groups(kDispatchClosest, rays, wave.bounce == 0u ? kPlainRaysPerGroup : kRefillRaysPerGroup);
-    set_groups(kDispatchShadow, shadow, kRefillRaysPerGroup);
+    set_groups(kDispatchClosest, rays, kRaysPerGroup);
+    set_groups(kDispatchShadow, shadow, kRaysPerGroup);
     counters[kCounterClosestTotal] += rays;
     counters[kCounterShadowTotal] += shadow;
     for (uint q = kQueueEmitter; q < kQueueSurface + class_count; ++q) counters[kCounterQueue + q] = 0u;

@@ -28,7 +28,7 @@ struct TestHit {
 };
 
 struct DecodedNode {
-  uint32_t inner_mask, leaf_mask, curved_mask, child_base, leaf_base;
+  uint32_t inner_mask, leaf_mask, kinds, child_base, leaf_base;
   std::array<glm::vec3, 8> lo, hi;
 };
 
@@ -38,8 +38,8 @@ inline DecodedNode decode_node(const Bvh8& bvh, uint32_t node) {
   n.inner_mask = row[0].w >> 24;
   n.child_base = row[1].x;
   n.leaf_base = row[1].y;
-  n.curved_mask = row[1].z;
-  n.leaf_mask = row[1].w;
+  n.leaf_mask = row[1].w & 0xff;
+  n.kinds = row[1].w >> 16;
   const uint32_t lo[3][2] = {{row[2].x, row[2].y}, {row[2].z, row[2].w}, {row[3].x, row[3].y}};
   const uint32_t hi[3][2] = {{row[3].z, row[3].w}, {row[4].x, row[4].y}, {row[4].z, row[4].w}};
   for (uint32_t s = 0; s < 8; ++s)
@@ -55,14 +55,16 @@ inline DecodedNode decode_node(const Bvh8& bvh, uint32_t node) {
   return n;
 }
 
+inline uint32_t leaf_kind(const DecodedNode& n, uint32_t slot) { return n.kinds >> 2 * slot & 3; }
+
 inline uint32_t leaf_of_slot(const DecodedNode& n, uint32_t slot) {
   return n.leaf_base + static_cast<uint32_t>(std::popcount(n.leaf_mask & ((1u << slot) - 1)));
 }
 
 inline std::array<glm::vec3, 4> leaf_vertices(const Bvh8& bvh, uint32_t leaf) {
   const glm::vec4* r = &bvh.leaves.at(size_t{leaf} * gpu::kBvhLeafRows);
-  return {glm::vec3(r[0]), glm::vec3(r[0].w, r[1].x, r[1].y), glm::vec3(r[1].z, r[1].w, r[2].x),
-          glm::vec3(r[2].y, r[2].z, r[2].w)};
+  const auto vertex = [&](int k) { return glm::vec3(r[0][k], r[1][k], r[2][k]); };
+  return {vertex(0), vertex(1), vertex(2), vertex(3)};
 }
 
 /// Moeller and Trumbore 1997; (b0, b1, b2) and t.
@@ -172,7 +174,7 @@ inline TestHit traverse(const BvhInput& input, const Bvh8& bvh, const Ray& ray, 
       ++counts.leaves;
       const uint32_t leaf = leaf_of_slot(n, s);
       const glm::uvec4 info = bvh.leaf_info.at(leaf);
-      if (n.curved_mask >> s & 1) {
+      if (leaf_kind(n, s) != gpu::kLeafTriangles) {
         const double t = intersect_curved(ray, input.curved[info.x - input.triangles.size()]);
         if (t < best.t) best = {t, info.x, 0, 0};
         continue;

@@ -65,10 +65,10 @@ class Walker {
     depth_ = std::max(depth_, depth);
     const DecodedNode n = decode_node(bvh_, node);
     EXPECT_EQ(n.inner_mask & n.leaf_mask, 0u);
-    EXPECT_EQ(n.curved_mask & ~n.leaf_mask, 0u);
     for (uint32_t s = 0; s < 8; ++s) {
       if (!((n.inner_mask | n.leaf_mask) >> s & 1)) {
         check_empty_slot(node, s);
+        EXPECT_EQ(leaf_kind(n, s), 0u);
         continue;
       }
       // A child's box may stick out of its parent's by the parent's own rounding, so what counts is the meet.
@@ -76,7 +76,7 @@ class Walker {
       if (n.inner_mask >> s & 1)
         walk(n.child_base * 8 + s, b, depth + 1);
       else
-        check_leaf(leaf_of_slot(n, s), n.curved_mask >> s & 1, b);
+        check_leaf(leaf_of_slot(n, s), leaf_kind(n, s), b);
     }
   }
 
@@ -97,13 +97,13 @@ class Walker {
     }
   }
 
-  void check_leaf(uint32_t leaf, bool curved, const Bounds& b) {
+  void check_leaf(uint32_t leaf, uint32_t kind, const Bounds& b) {
     ASSERT_LT(leaf, bvh_.leaf_info.size());
     EXPECT_TRUE(leaves_.insert({leaf, 1}).second);
     const glm::uvec4 info = bvh_.leaf_info[leaf];
     ++primitives_[info.x];
-    EXPECT_EQ(curved, info.z != gpu::kLeafTriangles);
-    if (curved) {
+    EXPECT_EQ(kind, info.z);
+    if (kind != gpu::kLeafTriangles) {
       const CurvedPrimitive& c = scene_.curved.at(info.x - scene_.triangles.size());
       EXPECT_EQ(info.z, c.kind);
       EXPECT_EQ(info.y, info.x);
