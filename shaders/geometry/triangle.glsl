@@ -33,10 +33,24 @@ void take_hit(bool found, uint id, float t, float b1, float b2, TraceRay ray, in
   hit.b2 = found ? b2 : hit.b2;
 }
 
+// a, moved to the range of lo <= hi and x; also where a is not a number.
+float between(float a, float lo, float x, float hi) {
+  lo = x < lo ? x : lo;
+  hi = x > hi ? x : hi;
+  a = a > lo ? a : lo;
+  return a < hi ? a : hi;
+}
+
 // rows x, y, z of the leaf's four vertices, permuted; `wanted` false: no hit.
+// t is that of the triangle's plane, moved to the range of the vertices (edge-on, rounding makes the plane any). The
+// paper interpolates it between vertices: near a large triangle, above all one that is parallel to an axis, that is much
+// less accurate.
 void hit_triangles(vec4 x, vec4 y, vec4 z, TriangleRay r, uint leaf, bool wanted, TraceRay ray, inout TraceHit hit) {
+  vec3 ex = x.yzw - x.x, ey = y.yzw - y.x, ez = z.yzw - z.x;
+  x -= r.o.x;
+  y -= r.o.y;
   z -= r.o.z;
-  precise vec4 px = x - r.o.x - r.shear.x * z, py = y - r.o.y - r.shear.y * z;
+  precise vec4 px = x - r.shear.x * z, py = y - r.shear.y * z;
   // e_ij is antisymmetric in i and j, bit for bit.
   precise float e12 = px.y * py.z - py.y * px.z, e20 = px.z * py.x - py.z * px.x, e01 = px.x * py.y - py.x * px.y;
   precise float e23 = px.z * py.w - py.z * px.w, e30 = px.w * py.x - py.w * px.x, e02 = -e20;
@@ -44,8 +58,12 @@ void hit_triangles(vec4 x, vec4 y, vec4 z, TriangleRay r, uint leaf, bool wanted
   bool inside0 = min(min(e12, e20), e01) >= 0.0 || max(max(e12, e20), e01) <= 0.0;
   bool inside1 = min(min(e23, e30), e02) >= 0.0 || max(max(e23, e30), e02) <= 0.0;
   float inv0 = 1.0 / det0, inv1 = 1.0 / det1;
-  float t0 = (e12 * z.x + e20 * z.y + e01 * z.z) * r.shear.z * inv0;
-  float t1 = (e23 * z.x + e30 * z.z + e02 * z.w) * r.shear.z * inv1;
+  vec3 v0 = vec3(x.x, y.x, z.x), d = vec3(r.shear.xy, 1.0);
+  vec3 n0 = cross(vec3(ex.x, ey.x, ez.x), vec3(ex.y, ey.y, ez.y));
+  vec3 n1 = cross(vec3(ex.y, ey.y, ez.y), vec3(ex.z, ey.z, ez.z));
+  float lo = z.x < z.z ? z.x : z.z, hi = z.x < z.z ? z.z : z.x;
+  float t0 = between(dot(n0, v0) / dot(n0, d), lo, z.y, hi) * r.shear.z;
+  float t1 = between(dot(n1, v0) / dot(n1, d), lo, z.w, hi) * r.shear.z;
   take_hit(wanted && inside0 && det0 != 0.0, 2u * leaf, t0, e20 * inv0, e01 * inv0, ray, hit);
   take_hit(wanted && inside1 && det1 != 0.0, 2u * leaf + 1u, t1, e30 * inv1, e02 * inv1, ray, hit);
 }

@@ -9,7 +9,7 @@
 namespace tachylite::bench {
 namespace {
 
-RTCRay to_embree(const test::Ray& ray) {
+RTCRay to_embree(const test::TraceRay& ray) {
   RTCRay r{};
   r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
   r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
@@ -34,7 +34,7 @@ void for_blocks(size_t count, int threads, const Body& body) {
 
 }  // namespace
 
-EmbreeScene::EmbreeScene(const test::Mesh& mesh) {
+EmbreeScene::EmbreeScene(const test::TestMesh& mesh) {
   device_ = rtcNewDevice("threads=2");
   if (!device_) throw std::runtime_error("rtcNewDevice failed");
   scene_ = rtcNewScene(device_);
@@ -58,7 +58,7 @@ EmbreeScene::~EmbreeScene() {
   rtcReleaseDevice(device_);
 }
 
-void EmbreeScene::closest(std::span<const test::Ray> rays, std::span<test::Hit> hits, int threads) const {
+void EmbreeScene::closest(std::span<const test::TraceRay> rays, std::span<test::TraceHit> hits, int threads) const {
   for_blocks(rays.size(), threads, [&](size_t first, size_t last) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -73,7 +73,7 @@ void EmbreeScene::closest(std::span<const test::Ray> rays, std::span<test::Hit> 
   });
 }
 
-void EmbreeScene::occluded(std::span<const test::Ray> rays, std::span<test::Hit> hits, int threads) const {
+void EmbreeScene::occluded(std::span<const test::TraceRay> rays, std::span<test::TraceHit> hits, int threads) const {
   for_blocks(rays.size(), threads, [&](size_t first, size_t last) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);

@@ -2,22 +2,22 @@
 
 #include <limits>
 
-#include "support/random.h"
+#include "support/pcg32.h"
 
 namespace tachylite::bench {
 namespace {
 
-using test::Random;
-using test::Ray;
+using test::Pcg32;
+using test::TraceRay;
 
-std::vector<Ray> make_primary(const Camera& camera) {
+std::vector<TraceRay> make_primary(const Camera& camera) {
   const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
   const glm::vec3 right = glm::normalize(glm::cross(forward, {0, 0, 1})), up = glm::cross(right, forward);
   const float half = glm::tan(glm::radians(0.5f * camera.fov_degrees));
   const float scale = 2 * half / static_cast<float>(camera.resolution);
   constexpr uint32_t kTile = 8;
   const uint32_t tiles = camera.resolution / kTile;
-  std::vector<Ray> rays;
+  std::vector<TraceRay> rays;
   for (uint32_t i = 0; i < camera.resolution * camera.resolution; ++i) {
     const uint32_t tile = i / (kTile * kTile), pixel = i % (kTile * kTile);
     const auto x = static_cast<float>(tile % tiles * kTile + pixel % kTile) + 0.5f;
@@ -28,7 +28,7 @@ std::vector<Ray> make_primary(const Camera& camera) {
   return rays;
 }
 
-glm::vec3 cosine_direction(const glm::vec3& n, Random& random) {
+glm::vec3 cosine_direction(const glm::vec3& n, Pcg32& random) {
   const glm::vec3 d = n + random.direction();
   const float length = glm::length(d);
   return length > 1e-3f ? d / length : n;
@@ -36,16 +36,16 @@ glm::vec3 cosine_direction(const glm::vec3& n, Random& random) {
 
 }  // namespace
 
-std::vector<RaySet> make_ray_sets(const Scene& scene, const EmbreeScene& embree) {
+std::vector<RaySet> make_ray_sets(const BenchScene& scene, const EmbreeScene& embree) {
   std::vector<RaySet> sets{{"primary", false, true, make_primary(scene.camera)},
                            {"diffuse", false, false, {}},
                            {"shuffled", false, false, {}},
                            {"shadow", true, false, {}}};
-  const std::vector<Ray>& primary = sets[0].rays;
-  std::vector<test::Hit> hits(primary.size());
+  const std::vector<TraceRay>& primary = sets[0].rays;
+  std::vector<test::TraceHit> hits(primary.size());
   embree.closest(primary, hits, 2);
 
-  Random random(2);
+  Pcg32 random(2);
   for (size_t i = 0; i < primary.size(); ++i) {
     if (hits[i].id == gpu::kNoHit) continue;
     const glm::uvec3& triangle = scene.mesh.triangles[hits[i].id];

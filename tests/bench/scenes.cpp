@@ -2,20 +2,20 @@
 
 #include <stdexcept>
 
-#include "support/random.h"
+#include "support/pcg32.h"
 
 namespace tachylite::bench {
 namespace {
 
-using test::Mesh;
-using test::Random;
+using test::TestMesh;
+using test::Pcg32;
 
-void add_light(Scene& scene) {
+void add_light(BenchScene& scene) {
   scene.mesh.add_parallelogram(scene.light.corner, scene.light.edge_u, scene.light.edge_v);
 }
 
-Scene make_cornell() {
-  Scene scene{"cornell", {}, {{0, -3.4f, 0}, {0, 0, 0}, 40, 512}, {{-0.25f, -0.2f, 0.995f}, {0, 0.4f, 0}, {0.5f, 0, 0}}};
+BenchScene make_cornell() {
+  BenchScene scene{"cornell", {}, {{0, -3.4f, 0}, {0, 0, 0}, 40, 512}, {{-0.25f, -0.2f, 0.995f}, {0, 0.4f, 0}, {0.5f, 0, 0}}};
   scene.mesh.add_box({0, -1.25f, 0}, {1, 0, 0}, {0, 2.25f, 0}, {0, 0, 1});
   const auto rotated = [](float angle, float half) {
     return std::pair{glm::vec3(glm::cos(angle), glm::sin(angle), 0) * half,
@@ -29,11 +29,11 @@ Scene make_cornell() {
   return scene;
 }
 
-Scene make_room(const std::string& name, uint32_t rings, uint32_t segments) {
+BenchScene make_room(const std::string& name, uint32_t rings, uint32_t segments) {
   constexpr glm::vec3 kSize{10, 10, 4};
-  Scene scene{name, {}, {{0.5f, 0.6f, 2.2f}, {6, 6.5f, 1.4f}, 75, name == "big" ? 512u : 384u},
+  BenchScene scene{name, {}, {{0.5f, 0.6f, 2.2f}, {6, 6.5f, 1.4f}, 75, name == "big" ? 512u : 384u},
               {{3.5f, 3.5f, 3.95f}, {0, 3, 0}, {3, 0, 0}}};
-  Random random(1);
+  Pcg32 random(1);
   scene.mesh.add_box(0.5f * kSize, {0.5f * kSize.x, 0, 0}, {0, 0.5f * kSize.y, 0}, {0, 0, 0.5f * kSize.z});
   for (uint64_t i = 0; i < 60; ++i) {
     const float radius = random.uniform(0.2f, 0.6f);
@@ -57,7 +57,7 @@ Scene make_room(const std::string& name, uint32_t rings, uint32_t segments) {
 
 }  // namespace
 
-Scene make_scene(const std::string& name) {
+BenchScene make_scene(const std::string& name) {
   if (name == "cornell") return make_cornell();
   if (name == "room") return make_room(name, 32, 64);
   if (name == "big") return make_room(name, 90, 180);

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "support/mesh.h"
+#include "support/test_mesh.h"
 
 namespace tachylite::bench {
 
@@ -18,9 +18,9 @@ struct RectangleLight {
 };
 
 /// A closed scene made in code: every ray from the inside hits something. z is up.
-struct Scene {
+struct BenchScene {
   std::string name;
-  test::Mesh mesh;
+  test::TestMesh mesh;
   Camera camera;
   RectangleLight light;  // where shadow rays end; lies in front of the ceiling
 };
@@ -28,7 +28,7 @@ struct Scene {
 /// "cornell": 38 triangles, the box closed behind the camera. "room": 240 thousand triangles, 60 displaced spheres,
 /// boxes and thin columns. "big": the same with spheres of 32 thousand triangles each, 1.9 million in all.
 /// Throws std::invalid_argument for another name.
-Scene make_scene(const std::string& name);
+BenchScene make_scene(const std::string& name);
 std::vector<std::string> scene_names();
 
 }  // namespace tachylite::bench

@@ -7,9 +7,9 @@
 namespace tachylite::test {
 
 /// PCG32 (O'Neill 2014): the same numbers on every machine, which the distributions of <random> do not promise.
-class Random {
+class Pcg32 {
  public:
-  explicit Random(uint64_t seed) : state_(seed * 2 + 1) { next(); }
+  explicit Pcg32(uint64_t seed) : state_(seed * 2 + 1) { next(); }
 
   uint32_t next() {
     const uint64_t old = state_;

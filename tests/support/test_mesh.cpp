@@ -1,27 +1,27 @@
-#include "support/mesh.h"
+#include "support/test_mesh.h"
 
 #include <array>
 
 #include <glm/gtc/constants.hpp>
 
-#include "support/random.h"
+#include "support/pcg32.h"
 
 namespace tachylite::test {
 
-void Mesh::append(const Mesh& other) {
+void TestMesh::append(const TestMesh& other) {
   const auto base = static_cast<uint32_t>(vertices.size());
   vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
   for (const glm::uvec3& triangle : other.triangles) triangles.push_back(triangle + base);
 }
 
-void Mesh::add_parallelogram(const glm::vec3& corner, const glm::vec3& edge_u, const glm::vec3& edge_v) {
+void TestMesh::add_parallelogram(const glm::vec3& corner, const glm::vec3& edge_u, const glm::vec3& edge_v) {
   const auto base = static_cast<uint32_t>(vertices.size());
   for (const glm::vec3& v : {corner, corner + edge_u, corner + edge_u + edge_v, corner + edge_v}) vertices.push_back(v);
   triangles.push_back({base, base + 1, base + 2});
   triangles.push_back({base, base + 2, base + 3});
 }
 
-void Mesh::add_box(const glm::vec3& centre, const glm::vec3& axis_x, const glm::vec3& axis_y,
+void TestMesh::add_box(const glm::vec3& centre, const glm::vec3& axis_x, const glm::vec3& axis_y,
                    const glm::vec3& axis_z) {
   const auto base = static_cast<uint32_t>(vertices.size());
   for (uint32_t i = 0; i < 8; ++i) {
@@ -36,14 +36,14 @@ void Mesh::add_box(const glm::vec3& centre, const glm::vec3& axis_x, const glm::
   }
 }
 
-Mesh make_displaced_sphere(const glm::vec3& centre, float radius, float amplitude, uint32_t rings, uint32_t segments,
+TestMesh make_displaced_sphere(const glm::vec3& centre, float radius, float amplitude, uint32_t rings, uint32_t segments,
                            uint64_t seed) {
   // A sum of plane waves of random directions; amplitudes fall as 1 / frequency.
   struct Wave {
     glm::vec3 direction;
     float phase, amplitude;
   };
-  Random random(seed);
+  Pcg32 random(seed);
   std::array<Wave, 12> waves;
   float total = 0;
   for (size_t i = 0; i < waves.size(); ++i) {
@@ -57,7 +57,7 @@ Mesh make_displaced_sphere(const glm::vec3& centre, float radius, float amplitud
     return centre + n * (radius * (1 + amplitude * sum / total));
   };
 
-  Mesh mesh;
+  TestMesh mesh;
   mesh.vertices.push_back(displaced({0, 0, 1}));
   for (uint32_t ring = 1; ring < rings; ++ring) {
     const float theta = glm::pi<float>() * static_cast<float>(ring) / static_cast<float>(rings);
@@ -81,9 +81,9 @@ Mesh make_displaced_sphere(const glm::vec3& centre, float radius, float amplitud
   return mesh;
 }
 
-Mesh make_triangle_soup(uint32_t count, float size, uint64_t seed) {
-  Random random(seed);
-  Mesh mesh;
+TestMesh make_triangle_soup(uint32_t count, float size, uint64_t seed) {
+  Pcg32 random(seed);
+  TestMesh mesh;
   for (uint32_t i = 0; i < count; ++i) {
     const glm::vec3 centre = random.in_box(glm::vec3(0), glm::vec3(1));
     for (int k = 0; k < 3; ++k)

@@ -1,0 +1,61 @@
+// tachylite_bench: how fast the kernels are, against a yardstick in the same process.
+
+#include <cstdio>
+#include <exception>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/rays.h"
+#include "bench/scenes.h"
+
+namespace tachylite::bench {
+namespace {
+
+void print_rays(const std::vector<RaysResult>& results, bool json) {
+  if (!json) fmt::print("{:8} {:9} {:>9} {:>9} {:>7} {:>10}\n", "scene", "rays", "Mrays/s", "Embree", "ratio", "mismatches");
+  for (size_t i = 0; i < results.size(); ++i) {
+    const RaysResult& r = results[i];
+    if (json)
+      fmt::print("{}{{\"scene\": \"{}\", \"rays\": \"{}\", \"mrays\": {:.3f}, \"embree_mrays\": {:.3f}, "
+                 "\"ratio\": {:.3f}, \"mismatches\": {}}}{}\n",
+                 i == 0 ? "[" : " ", r.scene, r.rays, r.mrays, r.embree_mrays, r.ratio(), r.mismatches,
+                 i + 1 < results.size() ? "," : "]");
+    else
+      fmt::print("{:8} {:9} {:9.2f} {:9.2f} {:7.3f} {:10}\n", r.scene, r.rays, r.mrays, r.embree_mrays, r.ratio(),
+                 r.mismatches);
+  }
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Benchmarks of Tachylite's kernels");
+  app.require_subcommand(1);
+  bool json = false;
+
+  CLI::App* rays = app.add_subcommand("rays", "rays per second against Embree's rtcIntersect1 and rtcOccluded1");
+  std::string scene;
+  int repetitions = 9;
+  rays->add_option("--scene", scene, "one scene only")->check(CLI::IsMember(scene_names()));
+  rays->add_option("--repetitions", repetitions, "of each measurement, in turn")->check(CLI::Range(1, 1000));
+  rays->add_flag("--json", json);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  if (rays->parsed()) print_rays(bench_rays(scene, repetitions), json);
+  return 0;
+}
+
+}  // namespace
+}  // namespace tachylite::bench
+
+int main(int argc, char** argv) {
+  try {
+    return tachylite::bench::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}

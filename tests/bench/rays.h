@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tachylite::bench {
+
+/// Rays a second of the device's trace kernels and of Embree on the same rays. Both run in turn in this process, and
+/// each figure is that of the repetition with least CPU time: 2 * rays / CPU seconds, what 2 undisturbed cores do.
+struct RaysResult {
+  std::string scene, rays;
+  double mrays = 0, embree_mrays = 0;
+  size_t mismatches = 0;  // rays of which one sees a hit and the other none, or whose t differ by more than 1e-4 of it
+  double ratio() const { return mrays / embree_mrays; }
+};
+
+/// `only`: one scene; empty: all.
+std::vector<RaysResult> bench_rays(const std::string& only, int repetitions);
+
+}  // namespace tachylite::bench

@@ -1,0 +1,32 @@
+// Traces rays of support/tracer.h. ANY: any hit. PLAIN: one ray a lane, lanes are not refilled.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+layout(local_size_x = 64) in;
+#include "geometry/bvh.glsl"
+#include "shared/bindings.h"
+
+layout(set = 0, binding = kBindPathTexels) uniform samplerBuffer rays;
+layout(set = 0, binding = kBindPaths) writeonly restrict buffer Hits { vec4 hits[]; };
+layout(push_constant) uniform Push { uint count; };
+
+#ifdef ANY
+const bool any_hit = true;
+#else
+const bool any_hit = false;
+#endif
+
+TraceRay fetch_ray(uint i) {
+  vec4 o = texelFetch(rays, int(2u * i)), d = texelFetch(rays, int(2u * i + 1u));
+  return TraceRay(o.xyz, d.xyz, o.w, floatBitsToUint(d.w), kNoHit);
+}
+void store_hit(uint i, TraceHit hit) { hits[i] = vec4(uintBitsToFloat(hit.id), hit.b1, hit.b2, hit.t); }
+
+#ifdef PLAIN
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i < count) store_hit(i, trace_ray(fetch_ray(i), any_hit));
+}
+#else
+#include "geometry/trace_rays.glsl"
+void main() { trace_rays(count, any_hit); }
+#endif
