@@ -269,6 +269,8 @@ FilmBuffer Renderer::render() {
   PassSums sums(params, size.blocks, r.scene);
   film.set_extra_channels(sums.extra_channels());
   Timer timer;
+  double relative_error = 0;
+  uint64_t estimated_samples = 0;
   bool stop = false, interrupted = false;
   for (uint64_t block = first_block; block < end_block && !stop && !interrupted;) {
     // One pass: a few blocks of samples for all pixels.
@@ -288,6 +290,7 @@ FilmBuffer Renderer::render() {
       progress.samples = film.samples();
       progress.target_samples = r.options.samples;
       progress.seconds = timer.seconds();
+      progress.relative_error = relative_error;
       progress.fraction = (static_cast<double>(block - first_block) + pass * wave.block_count) /
                           static_cast<double>(end_block - first_block);
       progress.mpaths_per_s = static_cast<double>(r.statistics.paths) * 1e-6 / progress.seconds;
@@ -304,7 +307,12 @@ FilmBuffer Renderer::render() {
     }
     block += wave.block_count;
     if (r.options.time_limit > 0 && timer.seconds() >= r.options.time_limit) stop = true;
-    if (r.options.error_limit > 0 && film.has_variance() && film.relative_error() <= r.options.error_limit) stop = true;
+    // The estimate reads the whole film: anew where it decides, else when the samples have grown by a half.
+    if (film.has_variance() && (r.options.error_limit > 0 || 2 * film.samples() >= 3 * estimated_samples)) {
+      relative_error = film.relative_error();
+      estimated_samples = film.samples();
+      stop = stop || (r.options.error_limit > 0 && relative_error <= r.options.error_limit);
+    }
   }
   r.statistics.render_seconds = timer.seconds();
   r.statistics.kernels = r.commands.kernel_times();
