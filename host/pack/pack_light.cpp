@@ -252,6 +252,7 @@ class LightPacker {
     for (size_t i = 0; i < records_.size(); ++i) {
       LightRecord& r = records_[i];
       out_.kinds |= 1u << r.kind | ((r.flags & gpu::kLightSmooth) ? 1u << gpu::kLightsSmooth : 0u);
+      if (is_large_rectangle(r)) out_.kinds |= 1u << gpu::kLightsSphericalRectangles;
       r.rows[0].w = as_float(r.kind | r.flags);
       if (r.kind <= gpu::kLightCylinder) {
         r.rows[5].y = as_float(where[i]);
@@ -267,6 +268,14 @@ class LightPacker {
       out_.table[0].z = out_.environment_row;
       out_.table[0].w = std::bit_cast<uint32_t>(static_cast<float>(environment_->bounds.power));
     }
+  }
+
+  // Sampling by solid angle costs a third of the time of a tiny scene's paths (lavapipe) and gains 5 % of the error on
+  // the Cornell box, whose light has 4 % of a wall's area; it pays for lights as large as a ceiling.
+  bool is_large_rectangle(const LightRecord& r) const {
+    const glm::dvec3 e = geometry_.box_max - geometry_.box_min;
+    const double wall = (e.x * e.y + e.y * e.z + e.z * e.x) / 3;
+    return r.kind == gpu::kLightRectangle && double{r.rows[4].w} > 0.1 * wall;
   }
 
   const Scene& scene_;

@@ -2,7 +2,8 @@
 // Parametrization for Spherical Rectangles". Differences from the paper: the solid angle is a sum of two triangles'
 // (Van Oosterom and Strackee 1983), which keeps its digits when it is small; the angle k of the paper's table 1 is
 // never formed, only its cosine and sine, which are algebraic; x_u is solved without 1 - c_u^2.
-// Rectangles that subtend less than kMinSolidAngle, or whose plane (nearly) holds p, are sampled uniformly in area.
+// Rectangles that subtend less than kMinSolidAngle, or whose plane (nearly) holds p, are sampled uniformly in area; so
+// are all in scenes where none is large (kLightsSphericalRectangles), which then have no code for solid angles.
 #ifndef TACHYLITE_LIGHT_RECTANGLE_GLSL
 #define TACHYLITE_LIGHT_RECTANGLE_GLSL
 #include "base/math.glsl"
@@ -45,7 +46,7 @@ RectangleView view_rectangle(vec3 v0, vec3 e1, vec3 e2, vec3 n) {
   float lower = v.r.x * v.r.y * v.r.w + (xx + yy0) * v.r.w + (xx1 + yy) * v.r.x + across * v.r.y;
   float upper = v.r.x * v.r.w * v.r.z + across * v.r.z + (xx + yy1) * v.r.x + (xx0 + yy) * v.r.w;
   v.solid_angle = 2.0 * (xatan2(volume, lower) + xatan2(volume, upper));
-  v.by_area = v.solid_angle < kMinSolidAngle || v.h < 1e-4 * (lx + ly);
+  v.by_area = !has_light(kLightsSphericalRectangles) || v.solid_angle < kMinSolidAngle || v.h < 1e-4 * (lx + ly);
   return v;
 }
 

@@ -55,7 +55,7 @@ TACHYLITE_CONST uint kLightPairs = 1u << 9u;    // two triangles of the shape to
 
 // Bits of the set of light kinds (kFeatureLights) that are no kinds.
 TACHYLITE_CONST uint kLightsSmooth = 16u;      // some light is smooth
-TACHYLITE_CONST uint kLightsSphericalTriangles = 17u;  // triangles are sampled by solid angle where it pays
+TACHYLITE_CONST uint kLightsSphericalRectangles = 17u; // some rectangle is so large that solid angle pays
 TACHYLITE_CONST uint kLightsSampledConstant = 18u;     // the constant environment is among the lights to sample
 
 TACHYLITE_SHARED_END
