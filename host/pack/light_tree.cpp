@@ -19,7 +19,7 @@ using glm::dvec3;
 constexpr double kPi = std::numbers::pi;
 constexpr int kBins = 12;
 constexpr size_t kManyLights = 4096;   // more: split along the longest axis only, and in parallel
-constexpr uint32_t kMaxDepth = 32;     // bits of a trail
+constexpr uint32_t kMaxDepth = 40;     // of the binary tree
 
 uint32_t bits(double x) { return std::bit_cast<uint32_t>(static_cast<float>(x)); }
 
@@ -76,52 +76,41 @@ struct Group {
 
 dvec3 centre_of(const LightBounds& b) { return 0.5 * (b.box_min + b.box_max); }
 
-class Builder {
- public:
-  Builder(std::span<const LightBounds> lights, std::span<const uint32_t> rows_of_lights, uint32_t first_row)
-      : lights_(lights),
-        rows_of_lights_(rows_of_lights),
-        first_row_(first_row),
-        order_(lights.size()),
-        trails_(lights.size()),
-        nodes_(2 * (lights.size() - 1)) {
-    std::iota(order_.begin(), order_.end(), 0u);
-  }
+/// A binary tree's inner node i has the children nodes[2 i] and nodes[2 i + 1].
+struct BinaryNode {
+  LightBounds bounds;
+  bool leaf = true;
+  size_t index = 0;  // of the light, or of the inner node
+};
 
-  LightTree build(std::vector<glm::uvec4>& table) {
-    const Node root = split(0, lights_.size(), 0, 0, 0);
-    table.reserve(table.size() + 2 * gpu::kLightNodeRows * (lights_.size() - 1));
-    for (const Node& node : nodes_) append_light_bounds(node.bounds, node.child, table);
-    return {root.bounds, root.child, std::move(trails_)};
+class BinaryBuilder {
+ public:
+  /// halve: split at the median everywhere, which is no deeper than need be.
+  BinaryBuilder(std::span<const LightBounds> lights, bool halve)
+      : lights_(lights), halve_(halve), order_(lights.size()), nodes_(2 * (lights.size() - 1)) {
+    std::iota(order_.begin(), order_.end(), 0u);
+    root_ = split(0, lights_.size(), 0, 0);
   }
+  const BinaryNode& root() const { return root_; }
+  const std::vector<BinaryNode>& nodes() const { return nodes_; }
 
  private:
-  struct Node {
-    LightBounds bounds;
-    uint32_t child = 0;
-  };
-
-  // Lights order_[first, last) at a depth, below a trail. Their inner nodes, one fewer than lights, are numbered from
-  // `number` on; the children of inner node i are nodes_[2 i] and nodes_[2 i + 1].
-  Node split(size_t first, size_t last, uint32_t depth, uint32_t trail, size_t number) {
-    if (last - first == 1) {
-      trails_[order_[first]] = trail;
-      return {lights_[order_[first]], rows_of_lights_[order_[first]]};
-    }
+  // Lights order_[first, last) at a depth. Their inner nodes, one fewer than lights, are numbered from `number` on.
+  BinaryNode split(size_t first, size_t last, uint32_t depth, size_t number) {
+    if (last - first == 1) return {lights_[order_[first]], true, order_[first]};
     CHECK_LT(depth, kMaxDepth);
     const size_t middle = partition(first, last, depth);
-    Node& a = nodes_[2 * number];
-    Node& b = nodes_[2 * number + 1];
-    const auto left = [&] { a = split(first, middle, depth + 1, trail, number + 1); };
-    const auto right = [&] { b = split(middle, last, depth + 1, trail | 1u << depth, number + (middle - first)); };
+    BinaryNode& a = nodes_[2 * number];
+    BinaryNode& b = nodes_[2 * number + 1];
+    const auto left = [&] { a = split(first, middle, depth + 1, number + 1); };
+    const auto right = [&] { b = split(middle, last, depth + 1, number + (middle - first)); };
     if (last - first > kManyLights) {
       parallel_invoke(left, right);
     } else {
       left();
       right();
     }
-    return {merge(a.bounds, b.bounds),
-            gpu::kLightNode | static_cast<uint32_t>(first_row_ + 2 * gpu::kLightNodeRows * number)};
+    return {merge(a.bounds, b.bounds), false, number};
   }
 
   // Reorders and returns where the second half begins.
@@ -134,7 +123,7 @@ class Builder {
     const dvec3 extent = hi - lo;
     const int longest = extent.x >= extent.y && extent.x >= extent.z ? 0 : (extent.y >= extent.z ? 1 : 2);
     const size_t count = last - first;
-    const bool must_halve = depth + std::bit_width(count - 1) >= kMaxDepth;
+    const bool must_halve = halve_ || depth + std::bit_width(count - 1) >= kMaxDepth;
     int best_axis = -1, best_bin = 0;
     double best_cost = 0;
     for (int axis = 0; axis < 3 && !must_halve && count > 2; ++axis) {
@@ -192,10 +181,85 @@ class Builder {
   }
 
   std::span<const LightBounds> lights_;
-  std::span<const uint32_t> rows_of_lights_;
-  uint32_t first_row_;
-  std::vector<uint32_t> order_, trails_;
-  std::vector<Node> nodes_;
+  bool halve_;
+  std::vector<uint32_t> order_;
+  std::vector<BinaryNode> nodes_;
+  BinaryNode root_;
+};
+
+double radius_of(const LightBounds& b) {
+  return b.radius >= 0 ? b.radius : 0.5 * glm::length(b.box_max - b.box_min);
+}
+
+/// Collapses a binary tree into the table's groups of children.
+class TableWriter {
+ public:
+  TableWriter(const BinaryBuilder& tree, std::span<const uint32_t> rows, std::vector<glm::uvec4>& table)
+      : tree_(tree), rows_(rows), table_(table), where_(rows.size()) {}
+
+  /// False when the tree is too deep for the trails.
+  bool write(uint32_t first_unit) {
+    const std::vector<BinaryNode> units = opened(tree_.root());
+    const uint32_t number = append(units);
+    for (size_t i = 0; i < units.size(); ++i)
+      if (!descend(units[i], number + static_cast<uint32_t>(i), {first_unit + static_cast<uint32_t>(i), 0}, 0))
+        return false;
+    return true;
+  }
+  std::vector<glm::uvec2> where() && { return std::move(where_); }
+
+ private:
+  /// The children of a wide node.
+  std::vector<BinaryNode> opened(const BinaryNode& node) const {
+    std::vector<BinaryNode> children = {node};
+    while (children.size() < gpu::kLightNodeWidth) {
+      size_t best = children.size();
+      double largest = -1;
+      for (size_t i = 0; i < children.size(); ++i) {
+        const double radius = radius_of(children[i].bounds), size = children[i].bounds.power * radius * radius;
+        if (!children[i].leaf && size > largest) best = i, largest = size;
+      }
+      if (best == children.size()) break;
+      const size_t inner = children[best].index;
+      children[best] = tree_.nodes()[2 * inner];
+      children.insert(children.begin() + static_cast<std::ptrdiff_t>(best) + 1, tree_.nodes()[2 * inner + 1]);
+    }
+    return children;
+  }
+
+  /// Rows for a group of children, whose words follow; the number of the first.
+  uint32_t append(const std::vector<BinaryNode>& children) {
+    const auto number = static_cast<uint32_t>((table_.size() - gpu::kLightTableHeaderRows) / gpu::kLightNodeRows);
+    for (const BinaryNode& child : children)
+      append_light_bounds(child.bounds, child.leaf ? rows_[child.index] : gpu::kLightNode, table_);
+    return number;
+  }
+
+  bool descend(const BinaryNode& node, uint32_t number, glm::uvec2 where, uint32_t level) {
+    if (node.leaf) {
+      where_[node.index] = where;
+      return true;
+    }
+    if (level == gpu::kLightTrailLevels) return false;
+    const std::vector<BinaryNode> children = opened(node);
+    const uint32_t first = append(children);
+    table_[gpu::kLightTableHeaderRows + gpu::kLightNodeRows * number + 2].w =
+        gpu::kLightNode | static_cast<uint32_t>(children.size() - 1) << gpu::kLightNodeCountShift | first;
+    for (uint32_t i = 0; i < children.size(); ++i) {
+      glm::uvec2 below = where;
+      if (level < 8)
+        below.x |= i << (8 + 3 * level);
+      else
+        below.y |= i << (3 * (level - 8));
+      if (!descend(children[i], first + i, below, level + 1)) return false;
+    }
+    return true;
+  }
+
+  const BinaryBuilder& tree_;
+  std::span<const uint32_t> rows_;
+  std::vector<glm::uvec4>& table_;
+  std::vector<glm::uvec2> where_;
 };
 
 }  // namespace
@@ -212,25 +276,33 @@ LightBounds merge(const LightBounds& a, const LightBounds& b) {
   return m;
 }
 
-void append_light_bounds(const LightBounds& bounds, uint32_t child, std::vector<glm::uvec4>& rows) {
+void append_light_bounds(const LightBounds& bounds, uint32_t child, std::vector<glm::uvec4>& table) {
   const dvec3 c = centre_of(bounds);
   // Rounded up: the centre's own rounding must stay inside.
   const double size = std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)});
-  const double radius = bounds.radius >= 0 ? bounds.radius : 0.5 * glm::length(bounds.box_max - bounds.box_min);
+  const double radius = radius_of(bounds);
   const double rounded = radius > 0 ? radius * (1 + 1e-6) + size * 1.2e-7 : 0;
   // A margin of the angles, for float cosines in the kernel; a flat light's theta_o stays 0.
   const bool all = bounds.theta_o >= kPi - 1e-3;
   const double theta_o = bounds.theta_o == 0 ? 0 : bounds.theta_o + 5e-4;
-  rows.emplace_back(bits(c.x), bits(c.y), bits(c.z), bits(rounded));
-  rows.emplace_back(bits(bounds.axis.x), bits(bounds.axis.y), bits(bounds.axis.z), bits(bounds.power));
+  table.emplace_back(bits(c.x), bits(c.y), bits(c.z), bits(rounded));
+  table.emplace_back(bits(bounds.axis.x), bits(bounds.axis.y), bits(bounds.axis.z), bits(bounds.power));
   const double cos_e = bounds.theta_e >= kPi / 2 - 1e-9 ? 0 : std::cos(bounds.theta_e + 1e-3);
-  rows.emplace_back(bits(all ? -1 : std::cos(theta_o)), bits(all ? 0 : std::sin(theta_o)), bits(cos_e), child);
+  table.emplace_back(bits(all ? -1 : std::cos(theta_o)), bits(all ? 0 : std::sin(theta_o)), bits(cos_e), child);
 }
 
-LightTree build_light_tree(std::span<const LightBounds> lights, std::span<const uint32_t> rows_of_lights,
-                           std::vector<glm::uvec4>& table) {
-  CHECK(!lights.empty() && lights.size() == rows_of_lights.size());
-  return Builder(lights, rows_of_lights, static_cast<uint32_t>(table.size())).build(table);
+std::vector<glm::uvec2> append_light_tree(std::span<const LightBounds> lights, std::span<const uint32_t> rows,
+                                          uint32_t first_unit, std::vector<glm::uvec4>& table) {
+  CHECK(!lights.empty() && lights.size() == rows.size());
+  const size_t begin = table.size();
+  for (const bool halve : {false, true}) {
+    table.resize(begin);
+    const BinaryBuilder tree(lights, halve);
+    TableWriter writer(tree, rows, table);
+    if (writer.write(first_unit)) return std::move(writer).where();
+  }
+  CHECK(false);  // a balanced tree is never too deep
+  return {};
 }
 
 }  // namespace tachylite

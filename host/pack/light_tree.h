@@ -20,19 +20,15 @@ struct LightBounds {
 
 LightBounds merge(const LightBounds& a, const LightBounds& b);
 
-/// The three rows of a unit or node. child: light row, or kLightNode | row.
-void append_light_bounds(const LightBounds& bounds, uint32_t child, std::vector<glm::uvec4>& rows);
+/// The three rows of a unit or of a node's child. child: light row, or a node (shared/light.h).
+void append_light_bounds(const LightBounds& bounds, uint32_t child, std::vector<glm::uvec4>& table);
 
-/// A binary tree over lights, split by the surface area orientation heuristic: Conty Estevez and Kulla 2018,
-/// "Importance Sampling of Many Lights with Adaptive Tree Splitting", section 4.4.
-struct LightTree {
-  LightBounds root;
-  uint32_t root_child = 0;          // of the root's unit, as append_light_bounds takes it
-  std::vector<uint32_t> trails;     // for each light: bit k says which child is taken at depth k
-};
-
-/// `rows_of_lights`: light row of each. Nodes are appended to `table`. At least one light; none deeper than 32.
-LightTree build_light_tree(std::span<const LightBounds> lights, std::span<const uint32_t> rows_of_lights,
-                           std::vector<glm::uvec4>& table);
+/// Appends a tree over lights to the table: up to kLightNodeWidth units, then the nodes below them. The table holds
+/// its header and `first_unit` other units so far. It is a binary tree, split by the surface area orientation heuristic
+/// (Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting", section 4.4),
+/// collapsed to wide nodes by opening the child of largest power times size.
+/// lights: at least one; rows: light row of each. Returns for each where it is (row 5 of its record).
+std::vector<glm::uvec2> append_light_tree(std::span<const LightBounds> lights, std::span<const uint32_t> rows,
+                                          uint32_t first_unit, std::vector<glm::uvec4>& table);
 
 }  // namespace tachylite

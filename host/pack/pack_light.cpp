@@ -207,8 +207,8 @@ class LightPacker {
     out_.count = static_cast<uint32_t>(std::count_if(records_.begin(), records_.end(),
                                                      [&](const LightRecord& r) { return is_sampled(r); }));
     const auto row_of = [](size_t i) { return static_cast<uint32_t>(i * gpu::kLightRows); };
-    out_.table.assign(gpu::kLightTableHeaderRows, glm::uvec4(0, gpu::kNoIndex, gpu::kNoIndex, 0));
-    std::vector<uint32_t> where(records_.size(), gpu::kLightTableHeaderRows);  // row 5, word y
+    out_.table.assign(gpu::kLightTableHeaderRows, glm::uvec4(0, 0, gpu::kNoIndex, 0));
+    std::vector<glm::uvec2> where(records_.size(), glm::uvec2(0));
     if (out_.count == 0) {
       out_.selection = gpu::kSelectNone;
     } else if (out_.count == 1 && is_sampled(records_[0])) {
@@ -223,10 +223,9 @@ class LightPacker {
         const LightRecord& r = records_[i];
         if (!is_sampled(r)) continue;
         if (out_.selection == gpu::kSelectLoop || r.infinite) {
-          where[i] = static_cast<uint32_t>(out_.table.size());
+          where[i].x = units++;
           append_light_bounds(r.bounds, row_of(i), out_.table);
-          if (r.infinite) out_.table[where[i]].w = std::bit_cast<uint32_t>(-1.0f);
-          ++units;
+          if (r.infinite) out_.table[out_.table.size() - gpu::kLightNodeRows].w = std::bit_cast<uint32_t>(-1.0f);
         } else {
           leaves.push_back(r.bounds);
           leaf_rows.push_back(row_of(i));
@@ -234,15 +233,11 @@ class LightPacker {
         }
       }
       if (!leaves.empty()) {
-        const auto unit = static_cast<uint32_t>(out_.table.size());
-        out_.table.resize(unit + gpu::kLightNodeRows);
-        const LightTree tree = build_light_tree(leaves, leaf_rows, out_.table);
-        std::vector<glm::uvec4> root;
-        append_light_bounds(tree.root, tree.root_child, root);
-        std::copy(root.begin(), root.end(), out_.table.begin() + unit);
-        for (size_t k = 0; k < leaves.size(); ++k) where[leaf_records[k]] = tree.trails[k];
-        out_.table[0].y = unit;
-        ++units;
+        const std::vector<glm::uvec2> found = append_light_tree(leaves, leaf_rows, units, out_.table);
+        for (size_t k = 0; k < found.size(); ++k) {
+          where[leaf_records[k]] = found[k];
+          units = std::max(units, (found[k].x & 0xffu) + 1);
+        }
       }
       out_.table[0].x = units;
     }
@@ -255,7 +250,8 @@ class LightPacker {
       if (is_large_rectangle(r)) out_.kinds |= 1u << gpu::kLightsSphericalRectangles;
       r.rows[0].w = as_float(r.kind | r.flags);
       if (r.kind <= gpu::kLightCylinder) {
-        r.rows[5].y = as_float(where[i]);
+        r.rows[5].y = as_float(where[i].x);
+        r.rows[5].w = as_float(where[i].y);
         if (!r.corners.empty()) {
           r.rows[5].z = as_float(static_cast<uint32_t>(out_.rows.size()));
           out_.rows.insert(out_.rows.end(), r.corners.begin(), r.corners.end());

@@ -157,8 +157,8 @@ double folded(double u, WrapMode wrap) {
 dvec3 point_color(const Texture& texture, const dvec2& uv) {
   const dvec2 q(texture.to_uv * dvec3(uv, 1));
   if (const auto* board = std::get_if<CheckerboardTexture>(&texture.kind)) {
-    const bool different = (q.x - std::floor(q.x) > 0.5) != (q.y - std::floor(q.y) > 0.5);
-    return different ? board->color0 : board->color1;
+    const bool same = (q.x - std::floor(q.x) > 0.5) == (q.y - std::floor(q.y) > 0.5);
+    return same ? board->color0 : board->color1;
   }
   const auto& bitmap = std::get<BitmapTexture>(texture.kind);
   const int width = bitmap.bitmap->width, height = bitmap.bitmap->height;

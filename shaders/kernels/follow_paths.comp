@@ -55,7 +55,7 @@ void main() {
   vec4 u_camera = camera_sample(path_sampler);
   CameraRay camera = sample_camera_ray(pixel, u_camera.xy, path_sampler);
   BakedRay ray = BakedRay(camera.o, camera.d, kNoHit, kNoHit);
-  float tmax = camera.tmax, pdf = 0.0, selection_norm = 0.0;
+  float tmax = camera.tmax, pdf = 0.0, selection_key = 0.0;
   vec4 beta = vec4(1.0);
   vec3 radiance = vec3(0.0), sum = vec3(0.0);
   vec2 u_light = u_camera.zw;
@@ -74,18 +74,18 @@ void main() {
     // Light that the ray has found.
     if (is_hit && it.light != kNoIndex) {
       vec3 emitted = emitted_radiance(it, -ray.d);
-      float light_pdf = pdf_light_hit(ray.o, selection_norm, it, hit_id, ray.d, t);
+      float light_pdf = pdf_light_hit(ray.o, selection_key, it, hit_id, ray.d, t);
       if (emitted != vec3(0.0)) radiance += found_light_weight(pdf, light_pdf) * beta.xyz * emitted;
     }
     if (has_escaped_light() && !is_hit) {
-      float light_pdf = pdf_light_escaped(ray.o, selection_norm, ray.d);
+      float light_pdf = pdf_light_escaped(ray.o, selection_key, ray.d);
       radiance += found_light_weight(pdf, light_pdf) * beta.xyz * escaped_radiance(ray.d);
     }
 
     SurfaceBsdf bsdf = load_bsdf(it, -ray.d);
     vec4 choices = needs_choices() ? choice_sample(path_sampler, edges - 1u) : vec4(0.0);
     if (samples_lights(edges)) {
-      ShadowRay shadow = sample_direct_light(it, -ray.d, bsdf, beta.xyz, u_light, choices.x, selection_norm);
+      ShadowRay shadow = sample_direct_light(it, -ray.d, bsdf, beta.xyz, u_light, choices.x, selection_key);
       BakedRay to_light = BakedRay(shadow.o, shadow.d, hit_id, shadow.target);
       bool wanted = alive && shadow.wanted;
       bool blocked = any_baked(to_light, shadow.target == kTargetInfinite ? infinity() : 1.0);

@@ -16,8 +16,8 @@ void main() {
   vec4 hit = load_path(kPathHit, slot);
   Interaction it = load_interaction(hit, origin.xyz, direction.xyz);
   vec3 radiance = emitted_radiance(it, -direction.xyz);
-  float norm = load_path(kPathRadiance, slot).w;
-  float light_pdf = pdf_light_hit(origin.xyz, norm, it, floatBitsToUint(hit.x), direction.xyz, hit.w);
+  float selection_key = load_path(kPathRadiance, slot).w;
+  float light_pdf = pdf_light_hit(origin.xyz, selection_key, it, floatBitsToUint(hit.x), direction.xyz, hit.w);
   float weight = found_light_weight(direction.w, light_pdf);
   if (radiance != vec3(0.0)) add_radiance(slot, weight * load_path(kPathBeta, slot).xyz * radiance);
 }

@@ -11,8 +11,8 @@ void main() {
   if (i >= queue_length(kQueueEscaped)) return;
   uint slot = load_queue(kQueueEscaped, i);
   vec4 direction = load_path(kPathDirection, slot);
-  float norm = load_path(kPathRadiance, slot).w;
-  float light_pdf = pdf_light_escaped(load_path(kPathOrigin, slot).xyz, norm, direction.xyz);
+  float selection_key = load_path(kPathRadiance, slot).w;
+  float light_pdf = pdf_light_escaped(load_path(kPathOrigin, slot).xyz, selection_key, direction.xyz);
   float weight = found_light_weight(direction.w, light_pdf);
   add_radiance(slot, weight * load_path(kPathBeta, slot).xyz * escaped_radiance(direction.xyz));
 }

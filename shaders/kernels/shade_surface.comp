@@ -22,10 +22,10 @@ void main() {
   vec4 choices = needs_choices() ? choice_sample(path_sampler, wave.bounce) : vec4(0.0);
   uint edges = wave.bounce + 1u;
 
-  float selection_norm = 0.0;
+  float selection_key = 0.0;
   if (samples_lights(edges)) {
     vec2 u = path_sample(path_sampler, wave.bounce == 0u ? kGroupCamera : group_directions(wave.bounce - 1u)).zw;
-    ShadowRay ray = sample_direct_light(it, -d, bsdf, beta.xyz, u, choices.x, selection_norm);
+    ShadowRay ray = sample_direct_light(it, -d, bsdf, beta.xyz, u, choices.x, selection_key);
     bool wanted = live && ray.wanted;
     if (wanted && !is_finite(ray.contribution)) {
       atomicAdd(counters[kCounterNonfinite], 1u);
@@ -48,7 +48,7 @@ void main() {
       store_path(kPathDirection, slot, vec4(ray.d, ray.pdf));
       store_path(kPathBeta, slot, ray.beta);
       if (light_selection == kSelectLoop || light_selection == kSelectTree)
-        store_path(kPathRadiance, slot, vec4(load_path(kPathRadiance, slot).xyz, selection_norm));
+        store_path(kPathRadiance, slot, vec4(load_path(kPathRadiance, slot).xyz, selection_key));
     }
   }
 }

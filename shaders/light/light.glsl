@@ -88,13 +88,17 @@ vec3 sampled_radiance(vec3 le, uint kind, uint flags, uint texture_row, vec4 row
   return dot(n, wi) < 0.0 ? le : vec3(0.0);
 }
 
-// n: shading normal at p, its side unknown; zero in media.
-LightSample sample_light(vec3 p, vec3 n, vec2 u, float u_select, out float selection_norm) {
+// n: shading normal at p, on the side that light may come from; zero where it may come from all sides: in media, on
+// surfaces that transmit or whose frame is bumped. selection_key: what a hit of the next ray must know of n.
+LightSample sample_light(vec3 p, vec3 n, vec2 u, float u_select, out float selection_key) {
   float probability = 1.0;
   uint light = 0u;
-  selection_norm = 1.0;
-  if (light_selection == kSelectLoop || light_selection == kSelectTree)
-    light = choose_light(p, u_select, u, probability, selection_norm);
+  selection_key = 0.0;
+  if (light_selection == kSelectLoop || light_selection == kSelectTree) {
+    uint packed_normal = pack_normal(n);
+    selection_key = uintBitsToFloat(packed_normal);
+    light = choose_light(Receiver(p, unpack_normal(packed_normal)), u_select, u, probability);
+  }
 
   vec4 row0 = load_light(light);
   uint kind = floatBitsToUint(row0.w) & kLightKindMask, flags = floatBitsToUint(row0.w);
@@ -154,12 +158,9 @@ LightSample sample_light(vec3 p, vec3 n, vec2 u, float u_select, out float selec
     s.delta = true;
   }
   if (has_light(kLightsSampledConstant) && is_light(kind, kLightConstant)) {
-    // Proportional to the cosine on both sides of a surface, uniform in a medium.
     bool surface = n != vec3(0.0);
-    vec2 half_u = vec2(u.x < 0.5 ? 2.0 * u.x : 2.0 * u.x - 1.0, u.y);
-    vec3 local = surface ? sample_cosine_hemisphere(half_u) : sample_uniform_sphere(u);
-    s.pdf = surface ? 0.5 * pdf_cosine_hemisphere(local.z) : pdf_uniform_sphere();
-    if (surface && u.x >= 0.5) local.z = -local.z;
+    vec3 local = surface ? sample_cosine_hemisphere(u) : sample_uniform_sphere(u);
+    s.pdf = surface ? pdf_cosine_hemisphere(local.z) : pdf_uniform_sphere();
     s.wi = to_world(frame_from_normal(surface ? n : vec3(0.0, 0.0, 1.0)), local);
     s.radiance = row0.xyz;
   }
@@ -176,9 +177,11 @@ LightSample sample_light(vec3 p, vec3 n, vec2 u, float u_select, out float selec
   return s;
 }
 
-// Density of sample_light at p, where the normaliser was selection_norm, for the direction d (unit) in which a ray
-// from p hit the light of `it` after t, at hit_id.
-float pdf_light_hit(vec3 p, float selection_norm, Interaction it, uint hit_id, vec3 d, float t) {
+Receiver receiver(vec3 p, float selection_key) { return Receiver(p, unpack_normal(floatBitsToUint(selection_key))); }
+
+// Density of sample_light at p, which gave selection_key, for the direction d (unit) in which a ray from p hit the
+// light of `it` after t, at hit_id.
+float pdf_light_hit(vec3 p, float selection_key, Interaction it, uint hit_id, vec3 d, float t) {
   uint light = light_of_hit(it);
   vec4 row0 = load_light(light), row1 = load_light(light + 1u), row2 = load_light(light + 2u);
   vec4 row3 = load_light(light + 3u), row4 = load_light(light + 4u), row5 = load_light(light + 5u);
@@ -192,18 +195,18 @@ float pdf_light_hit(vec3 p, float selection_norm, Interaction it, uint hit_id, v
   if (is_light(kind, kLightDisk)) pdf = pdf_of_area(row4.w, to, row4.xyz);
   if (is_light(kind, kLightCylinder))
     pdf = pdf_cylinder_hit(view_cylinder(v0, row2.xyz, row3.xyz, row4.xyz, row3.w != 0.0), to);
-  return pdf * probability_of_light(p, selection_norm, floatBitsToUint(row5.y));
+  return pdf * probability_of_light(receiver(p, selection_key), floatBitsToUint(row5.yw));
 }
 
 // Density of sample_light at p for the direction d (unit) of a ray that escaped. 0 where the environment is not
 // among the lights that are sampled.
-float pdf_light_escaped(vec3 p, float selection_norm, vec3 d) {
+float pdf_light_escaped(vec3 p, float selection_key, vec3 d) {
   float pdf = 0.0;
   if (has_light(kLightEnvironment)) {
     uvec4 header = load_light_table_header();
     EnvironmentMap map = load_environment(header.z);
     pdf = environment_lookup(map, world_to_map(map, d)).w;
-    if (light_selection != kSelectSingle) pdf *= uintBitsToFloat(header.w) * selection_norm;
+    pdf *= probability_of_environment(receiver(p, selection_key), header.x, uintBitsToFloat(header.w));
   }
   return pdf;
 }

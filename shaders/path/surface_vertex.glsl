@@ -33,10 +33,18 @@ bool samples_lights(uint edges) {
          edges < max_depth;
 }
 
+// The normal of the side that light may come from: the viewer's, unless some lobe transmits or has a normal of its own
+// (then 0: any side).
+vec3 light_side_normal(Interaction it, vec3 wo) {
+  bool any_side = has_bsdf(kBsdfRoughDielectric) || has_bsdf(kBsdfPrincipled) || has_bsdf(kBsdfPrincipledThin) ||
+                  has_material(kMaterialHasFrames);
+  return any_side ? vec3(0.0) : (dot(it.n_s, wo) < 0.0 ? -it.n_s : it.n_s);
+}
+
 // u: point on the light; u_select: which light.
 ShadowRay sample_direct_light(Interaction it, vec3 wo, SurfaceBsdf bsdf, vec3 beta, vec2 u, float u_select,
-                              out float selection_norm) {
-  LightSample light = sample_light(it.p, it.n_s, u, u_select, selection_norm);
+                              out float selection_key) {
+  LightSample light = sample_light(it.p, light_side_normal(it, wo), u, u_select, selection_key);
   BsdfEval eval = eval_bsdf(bsdf, light.wi);
   float weight = light.delta || strategy == kStrategyEmitter ? 1.0 : mis_weight(light.pdf, eval.pdf);
   ShadowRay ray;

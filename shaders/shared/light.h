@@ -7,8 +7,8 @@
 //          spot, projector: times the texture); bits of kind | flags
 //   row 1..5, by kind:
 //     triangle, rectangle: 1: v0; hit of triangle 0      2: e1; texture row      3: e2; hit of triangle 1
-//                          4: n (unit, the side that emits); area                5: first triangle; trail or unit;
-//                             row of the corners' data (kNoIndex: none); unused
+//                          4: n (unit, the side that emits); area                5: first triangle; where (y);
+//                             row of the corners' data (kNoIndex: none); where (w)
 //       A triangle is v0 + b1 e1 + b2 e2; a rectangle v0 + s e1 + t e2, e1 orthogonal to e2, whose triangle 0 is the
 //       half with s + t < 1.
 //     sphere:   1: centre; hit    2: radius, 1 if it emits inwards, unused; texture row    3..4: unused   5: as above
@@ -28,14 +28,17 @@
 //     row 0: uv of v0, uv of v0 + e1     row 1: uv of v0 + e2; unused     rows 2..4: vertex normals (smooth lights)
 //
 // Table (kBindLightTable): rows of uvec4, floats by their bits.
-//   row 0: number of units; row of the unit that is the light tree (kNoIndex: none); environment's first light row
-//          (kNoIndex: none); importance of the environment (bits)
-//   then the units that the loop chooses among, kLightNodeRows rows each, then the tree's nodes: two children a node.
-//   Unit or child, "light bounds" as in Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights":
+//   row 0: number of units; unused; environment's first light row (kNoIndex: none); importance of the environment (bits)
+//   then groups of children, kLightNodeRows rows each child: first the units that are chosen among at the top, then the
+//   nodes' children, at most kLightNodeWidth each. "Light bounds" as in Conty Estevez and Kulla 2018, "Importance
+//   Sampling of Many Lights with Adaptive Tree Splitting":
 //     row 0: centre; radius of the sphere around it, negative for infinite lights
-//     row 1: axis of the cone of normals; power: estimated irradiance at p is power * cos(theta') / (d^2 + radius^2),
-//            for infinite lights power itself
-//     row 2: cos theta_o; sin theta_o; cos theta_e; light row, or kLightNode | row of a node's first child
+//     row 1: axis of the cone of normals; power: the irradiance at p is about power * cos(theta') / (d^2 + radius^2 / 2),
+//            of infinite lights power itself
+//     row 2: cos theta_o; sin theta_o; cos theta_e; light row, or a node: kLightNode | (number of children - 1) << 28 |
+//            number of its first child, counted from row kLightTableHeaderRows on
+//   Where a light is (row 5 of area lights): words y, w of "trail or unit" = number of its unit | trail << 8, and the
+//   trail's next bits: three a level below the unit, from the lowest bits on, 8 levels in y and 10 in w.
 #ifndef TACHYLITE_SHARED_LIGHT_H
 #define TACHYLITE_SHARED_LIGHT_H
 #include "features.h"
@@ -44,7 +47,11 @@ TACHYLITE_SHARED_BEGIN
 
 TACHYLITE_CONST uint kLightRows = 6u;
 TACHYLITE_CONST uint kLightNodeRows = 3u;
+TACHYLITE_CONST uint kLightNodeWidth = 8u;
 TACHYLITE_CONST uint kLightNode = 0x80000000u;
+TACHYLITE_CONST uint kLightNodeCountShift = 28u;
+TACHYLITE_CONST uint kLightNodeFirstMask = 0x0fffffffu;
+TACHYLITE_CONST uint kLightTrailLevels = 18u;
 TACHYLITE_CONST uint kLightTableHeaderRows = 1u;
 TACHYLITE_CONST uint kMaxLoopLights = 32u;  // more are put into a tree
 

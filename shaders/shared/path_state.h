@@ -12,7 +12,7 @@ TACHYLITE_SHARED_BEGIN
 TACHYLITE_CONST uint kPathOrigin = 0u;      // o.xyz (device space); w: bits of the hit that the ray leaves (kNoHit)
 TACHYLITE_CONST uint kPathDirection = 1u;   // d.xyz (unit); w: pdf of d [1/sr], 0 after a delta lobe or the camera
 TACHYLITE_CONST uint kPathBeta = 2u;        // throughput; w: eta^2 to undo the radiance scaling in roulette
-TACHYLITE_CONST uint kPathRadiance = 3u;    // L so far; w: normaliser of the light selection at the last vertex
+TACHYLITE_CONST uint kPathRadiance = 3u;    // L so far; w: key of the light selection at the last vertex
 TACHYLITE_CONST uint kPathHit = 4u;         // bits of 2 * leaf + triangle; b1; b2; t
 TACHYLITE_CONST uint kPathRowsBase = 5u;
 TACHYLITE_CONST uint kPathMedium = 5u;      // media only: bits of the medium; bits of the depth; unused; unused
