@@ -1,5 +1,7 @@
 #include "image/exr.h"
 
+#include <fstream>
+
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
@@ -38,6 +40,32 @@ std::pair<size_t, size_t> window_size(const FileLocation& where, const Imath::Bo
     throw InputError(where, fmt::format("the EXR image has {} channels of {} x {} pixels; that is too large",
                                         channels, w, h));
   return {width, height};
+}
+
+/// OpenEXR allocates by what the header says. Let it refuse what no image has, and check before it that the
+/// attributes (name, type, size, value; an empty name ends them) fit into the file.
+void check_header(const FileLocation& where, const std::filesystem::path& path) {
+  constexpr int kMaxSide = 1 << 17, kMaxTileSide = 1 << 12;
+  static const bool limited = [] {
+    Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
+    Imf::Header::setMaxTileSize(kMaxTileSide, kMaxTileSide);
+    return true;
+  }();
+  static_cast<void>(limited);
+
+  std::ifstream file(path, std::ios::binary);
+  const uintmax_t file_size = std::filesystem::file_size(path);
+  file.seekg(8);  // magic number and version
+  std::string word;
+  while (std::getline(file, word, '\0') && !word.empty()) {
+    uint8_t size[4]{};
+    std::getline(file, word, '\0');
+    file.read(reinterpret_cast<char*>(size), sizeof size);
+    const uint64_t bytes = size[0] | size[1] << 8 | size[2] << 16 | uint64_t{size[3]} << 24;
+    if (!file || bytes > file_size)
+      throw InputError(where, "not a readable EXR file: an attribute is cut short");
+    file.seekg(static_cast<std::streamoff>(bytes), std::ios::cur);
+  }
 }
 
 Image read_part(const FileLocation& where, const std::filesystem::path& path, size_t max_pixels) {
@@ -114,6 +142,7 @@ Image read_exr(const std::filesystem::path& file, size_t max_pixels) {
   std::error_code failed;
   if (!std::filesystem::is_regular_file(file, failed)) throw InputError(where, "no such file");
   try {
+    check_header(where, file);
     return read_part(where, file, max_pixels);
   } catch (const InputError&) {
     throw;

@@ -15,7 +15,8 @@
 namespace tachylite {
 namespace {
 
-/// stb_image fills what a file lacks with zeros. This source notes that it was asked for more than there is.
+/// stb_image takes zeros for what a file lacks, and may wait for something else for ever. This source gives
+/// ones beyond the end, and notes that it was asked for more than there is.
 struct Source {
   std::string_view bytes;
   size_t position = 0;
@@ -24,8 +25,12 @@ struct Source {
   static int read(void* user, char* data, int size) {
     auto& self = *static_cast<Source*>(user);
     const size_t n = std::min(static_cast<size_t>(size), self.bytes.size() - self.position);
-    if (n == 0) self.cut_short = true;
-    if (n > 0) std::memcpy(data, self.bytes.data() + self.position, n);
+    if (n == 0) {
+      self.cut_short = true;
+      std::memset(data, '\n', static_cast<size_t>(size));
+      return size;
+    }
+    std::memcpy(data, self.bytes.data() + self.position, n);
     self.position += n;
     return static_cast<int>(n);
   }
@@ -43,15 +48,31 @@ struct Source {
   static constexpr stbi_io_callbacks kCallbacks{&read, &skip, &eof};
 };
 
-/// A JPEG whose entropy-coded data breaks off decodes to grey without complaint; the end marker tells.
-bool jpeg_is_cut_short(std::string_view bytes) {
-  if (!bytes.starts_with("\xff\xd8")) return false;
-  for (size_t i = bytes.size() - 1; i > 0; --i) {
-    if (bytes[i - 1] != '\xff') continue;
-    if (bytes[i] == '\xd9') return false;  // end of image
-    if (bytes[i] == '\xda') return true;   // start of scan, with no end after it
+/// What stb_image does not check in a JPEG: that entropy-coded data go on to the end marker (else the rest is
+/// grey), and that a Huffman table has at most 256 codes (else it writes past its own).
+void check_jpeg(const FileLocation& where, std::string_view bytes) {
+  if (!bytes.starts_with("\xff\xd8")) return;
+  const auto byte = [&](size_t i) -> size_t {
+    if (i >= bytes.size()) throw InputError(where, "the image file is cut short");
+    return static_cast<unsigned char>(bytes[i]);
+  };
+  for (size_t i = 2;;) {
+    // Markers are 0xff and a code other than 0xff (padding), 0 (a data byte 0xff) and the restarts inside
+    // scans.
+    while (byte(i) != 0xff || byte(i + 1) == 0xff || byte(i + 1) == 0 || (byte(i + 1) & 0xf8) == 0xd0) ++i;
+    const size_t marker = byte(i + 1), begin = i + 4;
+    if (marker == 0xd9) return;  // end of image
+    const size_t end = i + 2 + 256 * byte(i + 2) + byte(i + 3);
+    if (end < begin) throw InputError(where, "the image cannot be decoded: broken segment");
+    if (marker == 0xc4)  // Huffman tables: a class, 16 counts, the symbols
+      for (size_t table = begin; table < end;) {
+        size_t codes = 0;
+        for (size_t k = 1; k <= 16; ++k) codes += byte(table + k);
+        if (codes > 256) throw InputError(where, "the image cannot be decoded: broken Huffman table");
+        table += 17 + codes;
+      }
+    i = end;
   }
-  return true;
 }
 
 template <typename T>
@@ -101,6 +122,7 @@ DecodedImage read_ldr(const std::filesystem::path& file, size_t max_pixels) {
   const std::string_view bytes = content.view();
 
   // Look at the header before anything is allocated.
+  check_jpeg(where, bytes);
   DecodedImage image;
   Source header{bytes};
   if (!stbi_info_from_callbacks(&Source::kCallbacks, &header, &image.width, &image.height, &image.channels))
@@ -131,7 +153,7 @@ DecodedImage read_ldr(const std::filesystem::path& file, size_t max_pixels) {
   }
   if (image.bytes.empty() && image.words.empty() && image.floats.empty())
     throw InputError(where, fmt::format("the image cannot be decoded: {}", stbi_failure_reason()));
-  if (source.cut_short || jpeg_is_cut_short(bytes)) throw InputError(where, "the image file is cut short");
+  if (source.cut_short) throw InputError(where, "the image file is cut short");
   return image;
 }
 

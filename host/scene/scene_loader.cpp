@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/parallel.h"
+#include "scene/check_scene.h"
 #include "scene/load_objects.h"
 #include "scene/plugin.h"
 
@@ -31,6 +32,7 @@ Scene SceneLoader::load() {
   if (scene.sensors.empty()) throw InputError(tree_.root.where, "the scene has no sensor");
   if (scene.shapes.empty() && scene.emitters.empty())
     throw InputError(tree_.root.where, "the scene is empty: it has neither shapes nor emitters");
+  check_scene(scene);
   return std::move(scene);
 }
 

@@ -81,6 +81,11 @@ TEST_F(BadFile, Obj) {
                          "ELF\2\1\1",
                          "m.obj:1", "not supported"},
                     });
+  const std::string emitting =
+      shape("obj", "m.obj").replace(shape("obj", "m.obj").size() - 8, 0, "<emitter type=\"area\"/>");
+  expect_complaints("m.obj", emitting, {{v + "f 1 2 2\nf 3 3 3\n", "scene.xml:1", "degenerate"}});
+  expect_complaints("m.obj", shape("obj", "m.obj"),
+                    {{"v 0 0 3e38\nv 1 0 0\nv 0 1 0\nf 1 2 3", "scene.xml:1", "too far"}});
   expect_complaints("other.obj", shape("obj", "none.obj"), {{"", "scene.xml:1", "none.obj"}});
 }
 
@@ -227,20 +232,26 @@ TEST_F(BadFile, BmpAndTga) {
 
 TEST_F(BadFile, Jpeg) {
   // Start of image, then start of scan: data that break off.
-  expect_complaints("m.jpg", texture("m.jpg"),
-                    {{"\xff\xd8\xff\xe0", "m.jpg", ""}, {"\xff\xd8\xff\xda\1\2\3\4", "m.jpg", ""}});
+  expect_complaints(
+      "m.jpg", texture("m.jpg"),
+      {{"\xff\xd8\xff\xc4" + std::string("\1\4", 2) + std::string(17, '\xff'), "m.jpg", "Huffman"},
+       {"\xff\xd8\xff\xe0", "m.jpg", ""},
+       {"\xff\xd8\xff\xda\1\2\3\4", "m.jpg", ""}});
 }
 
 TEST_F(BadFile, Hdr) {
   const std::string head = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n";
   write("good.hdr", head + std::string(16, 'a'));
   EXPECT_EQ(read_ldr(folder_ / "good.hdr").floats.size(), 12);
-  expect_complaints("m.hdr", texture("m.hdr"),
-                    {
-                        {head + std::string(9, 'a'), "m.hdr", "cut short"},
-                        {"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 200000 +X 200000\n", "m.hdr", ""},
-                        {"#?RADIANCE\n", "m.hdr", ""},
-                    });
+  expect_complaints(
+      "m.hdr", texture("m.hdr"),
+      {
+          {head + std::string(9, 'a'), "m.hdr", "cut short"},
+          // A run-length row of 8 pixels whose data end.
+          {"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 8\n" + std::string("\2\2\0\x8", 4), "m.hdr", ""},
+          {"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 200000 +X 200000\n", "m.hdr", ""},
+          {"#?RADIANCE\n", "m.hdr", ""},
+      });
 }
 
 TEST_F(BadFile, Exr) {
@@ -254,6 +265,8 @@ TEST_F(BadFile, Exr) {
   odd.add("depth.Z");
   odd.add("id");
   write_exr(folder_ / "odd.exr", odd);
+  std::string attribute = good;  // of 2 GB
+  attribute.replace(attribute.find("chlist") + 7, 4, little_endian({2000000000}));
   std::string huge = good;
   const size_t window = huge.find("dataWindow") + std::string("dataWindow\0box2i\0\20\0\0\0", 21).size();
   huge.replace(window + 8, 8, little_endian({2000000000, 2000000000}));
@@ -263,7 +276,8 @@ TEST_F(BadFile, Exr) {
                         {"hello", "m.exr", "not a readable EXR"},
                         {good.substr(0, 100), "m.exr", "not a readable EXR"},
                         {good.substr(0, good.size() / 2), "m.exr", "not a readable EXR"},
-                        {huge, "m.exr", ""},
+                        {attribute, "m.exr", "attribute is cut short"},
+                        {huge, "m.exr", "not a readable EXR"},
                         {content("inf.exr"), "m.exr", "column 1, row 1"},
                         {content("odd.exr"), "m.exr", "depth.Z id"},
                     });

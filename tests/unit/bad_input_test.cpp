@@ -225,6 +225,8 @@ TEST_F(BadInput, TransformsSensorsAndFilms) {
       {shape("cube", "<scale value=\"1e200\"/><scale value=\"1e200\"/>"), "scene.xml:3", "overflows"},
       {shape("sphere", "<scale x=\"2\"/>"), "scene.xml:3", "alike"},
       {shape("cylinder", "<scale x=\"2\"/>"), "scene.xml:3", "circle"},
+      {shape("rectangle", "<translate x=\"2e9\"/>"), "scene.xml:3", "too far"},
+      {"<shape type=\"sphere\"><float name=\"radius\" value=\"1e20\"/></shape>", "scene.xml:3", "too far"},
       {"<shape type=\"cylinder\"><point name=\"p1\" value=\"0\"/></shape>", "scene.xml:3",
        "different from p0"},
       {film("<integer name=\"width\" value=\"0\"/>"), "scene.xml:4", "[1, 65536]"},
