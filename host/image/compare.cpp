@@ -64,9 +64,10 @@ std::optional<DifferenceVariance> layer_variance(const Image& a, const Image& b)
   if (first && (a.width != b.width || a.height != b.height)) return sum;  // compare_images says what is wrong
   const bool second = add(b);
   if (!first && !second) return std::nullopt;
+  sum.partial = first != second;
   sum.from = first && second ? "the layers of both"
-             : first         ? "the layers of the first; the second counts as exact"
-                             : "the layers of the second; the first counts as exact";
+             : first         ? "the layers of the first and the scatter of the difference"
+                             : "the layers of the second and the scatter of the difference";
   return sum;
 }
 

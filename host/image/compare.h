@@ -31,8 +31,8 @@ struct Comparison {
   bool agree() const { return nonfinite == 0 && (!test || test->agree()); }
 };
 
-/// From the layers variance.R/G/B (variance of the pixel's mean) of the two; nothing if neither has them. An
-/// image without them counts as exact.
+/// From the layers variance.R/G/B (variance of the pixel's mean) of the two; nothing if neither has them. Of an
+/// image without them only the scatter of the difference within blocks is known.
 std::optional<DifferenceVariance> layer_variance(const Image& a, const Image& b);
 
 /// From an image R G B of the variance of one sample, for an image of `samples` of them a pixel. Below 1e-4

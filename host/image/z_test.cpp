@@ -143,6 +143,34 @@ std::pair<double, double> pooled_variance(const Tiling& tiling, int column, int 
                                    : std::pair{pooled, pool.dof()};
 }
 
+/// Raises the variance of each pixel to that which the difference has within the pixel's block, around its
+/// mean there and relative to brightness.
+void raise_to_scatter(int width, int height, int edge, const std::vector<float>& a,
+                      const std::vector<float>& b, double dark, std::vector<float>& variance) {
+  const auto for_block = [&](int x0, int y0, const auto& body) {
+    for (int y = y0; y < std::min(y0 + edge, height); ++y)
+      for (int x = x0; x < std::min(x0 + edge, width); ++x) {
+        const size_t i = static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
+        body(i, std::hypot(double{b[i]}, dark));
+      }
+  };
+  for (int y0 = 0; y0 < height; y0 += edge) {
+    for (int x0 = 0; x0 < width; x0 += edge) {
+      double n = 0, sum = 0, square = 0;
+      for_block(x0, y0, [&](size_t i, double unit) {
+        if (unit == 0) return;
+        const double relative = (double{a[i]} - double{b[i]}) / unit;
+        n += 1, sum += relative, square += relative * relative;
+      });
+      if (n < 2) continue;
+      const double scatter = std::max(0.0, square - sum * sum / n) / (n - 1);
+      for_block(x0, y0, [&](size_t i, double unit) {
+        variance[i] = std::max(variance[i], static_cast<float>(scatter * unit * unit));
+      });
+    }
+  }
+}
+
 /// Adds the blocks of channel `channel` to `test`, and their detectable biases to `detectable`.
 void test_blocks(const Tiling& tiling, int channel, double dark, double alpha,
                  const DifferenceVariance& variance, double tolerance, BlockTest& test,
@@ -244,6 +272,7 @@ ZTest z_test(int width, int height, const std::vector<std::vector<float>>& a,
     std::vector<float> variance = given.channels[c];
     const float floor = static_cast<float>(1e-12 * scale * scale);
     for (float& v : variance) v = std::max(v, floor);
+    if (given.partial) raise_to_scatter(width, height, options.block, a[c], b[c], 0.05 * scale, variance);
 
     const Tiling groups = sum_tiles(width, height, edge, a[c], b[c], variance);
     test.means.push_back(test_mean(groups, scale, mean_alpha, options.tolerance));

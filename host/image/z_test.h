@@ -34,6 +34,8 @@ struct ZTestOptions {
 struct DifferenceVariance {
   std::vector<std::vector<float>> channels;
   bool exact = false;  // known, rather than estimated from the few samples of the images themselves
+  /// One image's variance is not known: the scatter of the difference within each block is taken where it is larger.
+  bool partial = false;
   std::string from;    // what it was made of, for people
 };
 

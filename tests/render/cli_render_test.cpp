@@ -144,7 +144,8 @@ TEST_P(CliRender, StatisticsHaveAllKeys) {
 TEST_P(CliRender, AuxiliaryLayers) {
   ASSERT_EQ(render({"--spp", "8", "--aov", "albedo,normal", "--aov", "depth", "-o", "a.exr"}).exit_code, 0);
   const Image image = read_exr(folder / "a.exr");
-  for (const char* name : {"albedo.R", "albedo.G", "albedo.B", "sh_normal.X", "sh_normal.Y", "sh_normal.Z", "depth.T"})
+  for (const char* name :
+       {"albedo.R", "albedo.G", "albedo.B", "sh_normal.X", "sh_normal.Y", "sh_normal.Z", "depth.T"})
     EXPECT_TRUE(image.find(name)) << name;
   // The middle of the picture shows a wall or a box of albedo (0.885809, ...), at most 4.9 away.
   const size_t middle = 24 * 12 + 12;

@@ -101,6 +101,22 @@ TEST(CompareLevel, SmallImage) {
   expect_level({0.3, 0.2}, {0.3, 0.2}, 12);
 }
 
+Image without_layers(Image image) {
+  image.names.resize(3);
+  image.channels.resize(3);
+  return image;
+}
+
+TEST(CompareLevel, LayersInOneImageOnly) {
+  std::mt19937 random(41);
+  int rejected = 0;
+  for (int trial = 0; trial < 200; ++trial)
+    rejected +=
+        !compare(noisy_image(random, {0.1, 0.2, 8}), without_layers(noisy_image(random, {0.2, 0.2, 8})))
+             .agree();
+  EXPECT_LE(rejected, 9);  // Binomial(200, 0.01) exceeds it with probability 3e-5
+}
+
 TEST(CompareLevel, ExactSampleVariance) {
   std::mt19937 random(3);
   Image variance = noisy_image(random, {}), reference = variance;
@@ -175,6 +191,17 @@ TEST(ComparePower, LocalBiasThatTheMeanHides) {
       *compare(noisy_image(random, {0.1, 1, 16}, brighter_and_darker), noisy_image(random, {0.1, 1, 16}))
            .test;
   EXPECT_FALSE(test.blocks_agree);
+}
+
+TEST(ComparePower, LayersInOneImageOnly) {
+  std::mt19937 random(43);
+  const Noise noise{0.1, 1, 16};
+  const auto half = [](int x, int) { return x < kSize / 2 ? 1.1 : 0.9; };
+  for (int trial = 0; trial < 20; ++trial) {
+    const Image judge = without_layers(noisy_image(random, noise));
+    EXPECT_FALSE(compare(noisy_image(random, noise, 1.01), judge).test->means_agree);
+    EXPECT_FALSE(compare(noisy_image(random, noise, half), judge).test->blocks_agree);
+  }
 }
 
 TEST(ComparePower, FewWrongPixels) {
