@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/paths.h"
 #include "bench/rays.h"
 #include "bench/scenes.h"
 
@@ -27,6 +28,15 @@ void print_rays(const std::vector<RaysResult>& results, bool json) {
   }
 }
 
+void print_paths(const PathsResult& r, bool json) {
+  if (json)
+    fmt::print("{{\"mpaths\": {:.3f}, \"embree_mpaths\": {:.3f}, \"ratio\": {:.3f}, \"mean_ratio\": {:.4f}}}\n", r.mpaths,
+               r.embree_mpaths, r.ratio(), r.mean_ratio);
+  else
+    fmt::print("Mpaths/s {:.2f}, Embree {:.2f}, ratio {:.3f}; ratio of the images' means {:.4f}\n", r.mpaths,
+               r.embree_mpaths, r.ratio(), r.mean_ratio);
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Benchmarks of Tachylite's kernels");
   app.require_subcommand(1);
@@ -39,12 +49,18 @@ int run(int argc, char** argv) {
   rays->add_option("--repetitions", repetitions, "of each measurement, in turn")->check(CLI::Range(1, 1000));
   rays->add_flag("--json", json);
 
+  CLI::App* paths = app.add_subcommand("paths", "paths per second of a Cornell box against a path tracer with Embree");
+  int paths_repetitions = 3;
+  paths->add_option("--repetitions", paths_repetitions, "of each measurement, in turn")->check(CLI::Range(1, 1000));
+  paths->add_flag("--json", json);
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   if (rays->parsed()) print_rays(bench_rays(scene, repetitions), json);
+  if (paths->parsed()) print_paths(bench_paths(paths_repetitions), json);
   return 0;
 }
 
