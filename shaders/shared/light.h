@@ -53,7 +53,9 @@ TACHYLITE_CONST uint kLightNodeCountShift = 28u;
 TACHYLITE_CONST uint kLightNodeFirstMask = 0x0fffffffu;
 TACHYLITE_CONST uint kLightTrailLevels = 18u;
 TACHYLITE_CONST uint kLightTableHeaderRows = 1u;
-TACHYLITE_CONST uint kMaxLoopLights = 32u;  // more are put into a tree
+// More lights are put into a tree. One sample by the loop over 16 or 32 takes 130 or 208 ns on Mesa 22.3.6, 213 or 396 ns
+// on 25.0.7, with a relative variance of 0.08 or 0.29; by the tree over 33 both take 142 ns, at 0.66.
+TACHYLITE_CONST uint kMaxLoopLights = 16u;
 
 // Row 0, word w.
 TACHYLITE_CONST uint kLightKindMask = 0xffu;

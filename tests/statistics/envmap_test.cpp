@@ -1,6 +1,6 @@
 // Environment maps: the lookup, the density of the samples (against the image, in double), and the identities.
 //
-// Each chi2 test draws 2e5 samples; the bins are cells of the texel grid (or blocks of them), over which the bilinear
+// Each chi2 test draws 1e5 samples; the bins are cells of the texel grid (or blocks of them), over which the bilinear
 // density is integrated exactly: mean of the corners times the solid angle. Together they have a level of 1 %; each
 // sees a relative deviation of the density of a few per cent with a power of 0.99 (see its message).
 
@@ -20,7 +20,7 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 constexpr double kPi = std::numbers::pi;
-constexpr size_t kSamples = 200000;
+constexpr size_t kSamples = 100000;
 constexpr int kChi2Tests = 10;
 
 using Pixel = std::function<dvec3(int x, int y)>;
