@@ -5,7 +5,7 @@
 namespace tachylite::reference {
 namespace {
 
-/// The two coefficients after specular_weight or the limit kd + ks <= 1.
+/// The two coefficients after specular_weight, or after the limit kd + ks <= 1.
 struct Coefficients {
   dvec3 kd, ks;
 };
@@ -16,8 +16,7 @@ Coefficients coefficients(const BlinnPhongBsdf& bsdf, const ShadingPoint& point)
     const double w = std::clamp(point.scalar(*bsdf.specular_weight), 0.0, 1.0);
     return {(1 - w) * kd, w * ks};
   }
-  const double excess = std::max(1.0, max_component(kd + ks));
-  return {kd / excess, ks / excess};
+  return {kd, glm::min(ks, glm::max(1.0 - kd, dvec3(0)))};
 }
 
 double specular_probability(const Coefficients& c) {

@@ -4,9 +4,9 @@
 
 namespace tachylite::reference {
 
-/// Our own: f = kd/pi + ks (n+2)/(2 pi) max(0, h.z)^n, front side only. Where a channel has kd + ks > 1, both
-/// are divided by the largest kd + ks of the channels. With specular_weight w: (1-w) kd/pi + w ks (n+2)/(2
-/// pi) h.z^n, and no scaling.
+/// Our own: f = kd/pi + ks (n+2)/(2 pi) max(0, h.z)^n, front side only, ks cut to at most 1 - kd in each
+/// channel. With specular_weight w: (1-w) kd/pi + w ks (n+2)/(2 pi) h.z^n, and no cut. Note that (n+2)/(2 pi)
+/// normalises the density of h, not f: the specular part reflects up to 4 ks.
 std::optional<BsdfSample> sample_bsdf(const BlinnPhongBsdf& bsdf, const ShadingPoint& point, const dvec3& wo,
                                       Random& random);
 double pdf_bsdf(const BlinnPhongBsdf& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi);
