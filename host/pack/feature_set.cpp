@@ -4,6 +4,7 @@
 
 #include "shared/aov.h"
 #include "shared/material.h"
+#include "shared/medium.h"
 #include "shared/texture.h"
 
 namespace tachylite {
@@ -39,7 +40,11 @@ std::vector<Named> named_features(const FeatureSet& f) {
           {f.selection > gpu::kSelectSingle, "choice among lights"},
           {f.camera == gpu::kCameraThinLens, "lens"},
           {f.roulette_depth < f.max_depth, "Russian roulette"},
-          {f.media != 0, "media"},
+          {(f.media & gpu::kMediaHomogeneous) != 0, "homogeneous media"},
+          {(f.media & gpu::kMediaGrids) != 0, "media on grids"},
+          {(f.media & gpu::kMediaChromatic) != 0, "coloured extinction"},
+          {(f.media & gpu::kMediaBlended) != 0, "blended phase functions"},
+          {f.shadow_null, "shadow rays through surfaces"},
           {f.aovs != 0, "auxiliary channels"}};
 }
 
@@ -49,6 +54,8 @@ bool FeatureSet::area_lights() const {
   return has_light(gpu::kLightTriangles) || has_light(gpu::kLightRectangle) || has_light(gpu::kLightSphere) ||
          has_light(gpu::kLightDisk) || has_light(gpu::kLightCylinder);
 }
+
+bool FeatureSet::has_media() const { return (media & (gpu::kMediaHomogeneous | gpu::kMediaGrids)) != 0; }
 
 bool FeatureSet::environment() const {
   return has_light(gpu::kLightConstant) || has_light(gpu::kLightEnvironment);
@@ -71,6 +78,7 @@ std::map<uint32_t, uint32_t> FeatureSet::constants() const {
           {gpu::kFeatureLightTextures, light_textures},
           {gpu::kFeatureTextures, textures},
           {gpu::kFeatureMedia, media},
+          {gpu::kFeatureCameraMedium, camera_medium},
           {gpu::kFeatureShadowNull, shadow_null},
           {gpu::kFeatureAov, aovs}};
 }

@@ -31,12 +31,14 @@ struct FeatureSet {
   uint32_t selection = gpu::kSelectNone;
   bool light_textures = false;
   uint32_t textures = 0;                      // kTextures...
-  uint32_t media = 0;
+  uint32_t media = 0;                         // kMedia...
+  uint32_t camera_medium = 0xffffu;
   bool shadow_null = false;
   uint32_t aovs = 0;
 
   bool has_light(uint32_t kind) const { return (lights >> kind) & 1u; }
   bool area_lights() const;   // some shape emits: the stage shade_emitter exists
+  bool has_media() const;     // the stages sample_medium and shade_medium exist
   bool environment() const;   // constant or envmap: the stage shade_escaped exists
 
   /// Values of all specialization constants but those of a material class and of the sampler.

@@ -11,10 +11,12 @@
 #include "pack/pack_geometry.h"
 #include "pack/pack_light.h"
 #include "pack/pack_material.h"
+#include "pack/pack_medium.h"
 #include "pack/pack_texture.h"
 #include "shared/aov.h"
 #include "shared/geometry.h"
 #include "shared/material.h"
+#include "shared/medium.h"
 
 namespace tachylite {
 namespace {
@@ -49,9 +51,19 @@ void put_primitives(const Geometry& geometry, PackedScene& out) {
   }
 }
 
-uint32_t medium_word(const Shape& shape) {
-  const auto half = [](MediumIndex medium) { return medium == kNone ? 0xffffu : static_cast<uint32_t>(medium); };
-  return half(shape.interior) | half(shape.exterior) << 16;
+bool is_volumetric(const Integrator& integrator) {
+  return integrator.kind == Integrator::Kind::kVolpath || integrator.kind == Integrator::Kind::kVolpathMis;
+}
+
+// What of media and null surfaces paths and shadow rays meet; nothing with integrators that ignore them.
+void set_media_features(const Scene& scene, const Sensor& sensor, const PackedMedia& media, FeatureSet& features) {
+  if (!is_volumetric(scene.integrator)) return;
+  features.shadow_null = std::any_of(features.classes.begin(), features.classes.end(), [](const MaterialClass& c) {
+    return (c.flags & gpu::kMaterialNull) != 0;
+  });
+  features.media = media.kinds;
+  if (media.kinds != 0 || features.shadow_null) features.media |= gpu::kMediaPaths;
+  features.camera_medium = media.index(sensor.medium);
 }
 
 // leaf_info names class and emission, so that intersect_closest sorts paths with one load.
@@ -120,6 +132,9 @@ PackedScene pack_scene(const Scene& scene, int sensor_index) {
   features.triangles = !geometry.triangles.empty();
   features.curved = !geometry.curved.empty();
   features.vertex_normals = !geometry.normals.empty();
+  PackedMedia media;
+  if (is_volumetric(scene.integrator)) media = pack_media(scene, sensor, geometry.centre);
+  set_media_features(scene, sensor, media, features);
   const bool surface_uv = std::any_of(features.classes.begin(), features.classes.end(), [](const MaterialClass& c) {
     return (c.flags & (gpu::kMaterialTextured | gpu::kMaterialTangent)) != 0;
   });
@@ -150,7 +165,8 @@ PackedScene pack_scene(const Scene& scene, int sensor_index) {
     if (range.has_uv) flags |= gpu::kShapeHasUv;
     if (range.has_normals) flags |= gpu::kShapeHasNormals;
     if (shape.is_medium_boundary) flags |= gpu::kShapeIsBoundary;
-    out.shapes.push_back(uvec4(materials.row_of_bsdf[bsdf], lights.light_of_shape[s], flags, medium_word(shape)));
+    out.shapes.push_back(uvec4(materials.row_of_bsdf[bsdf], lights.light_of_shape[s], flags,
+                               media.index(shape.interior) | media.index(shape.exterior) << 16));
     out.shapes.push_back(uvec4(range.first_primitive, range.primitive_count, gpu::kNoIndex, 0));
   }
   mark_leaves(geometry, class_of_shape, shape_emits, out);
@@ -167,6 +183,8 @@ PackedScene pack_scene(const Scene& scene, int sensor_index) {
   out.light_table = std::move(lights.table);
   out.environment = std::move(lights.environment);
   out.environment_cdf = std::move(lights.environment_cdf);
+  out.media = std::move(media.rows);
+  out.grids = std::move(media.grids);
 
   // Camera, film and paths.
   pack_camera(sensor, geometry.centre, out.params);

@@ -65,27 +65,32 @@ Kernels build_kernels(vulkan::Device& device, const vulkan::BindingTable& table,
     return nullptr;
   };
 
+  // Rays may go on at null surfaces whatever the depth.
+  const bool bounces = features.max_depth > 1 || features.shadow_null, media = features.has_media();
   kernels.init_from_camera = make("init_from_camera", "init_from_camera", common);
   kernels.prepare_dispatch = make("prepare_dispatch", "prepare_dispatch", common);
   kernels.intersect_primary = make("intersect_primary", "intersect_primary", common);
-  kernels.intersect_closest = make_if(features.max_depth > 1, "intersect_closest");
+  kernels.intersect_closest = make_if(bounces, "intersect_closest");
   kernels.shade_emitter = make_if(features.area_lights(), "shade_emitter");
   kernels.shade_escaped = make_if(features.environment(), "shade_escaped");
   for (size_t c = 0; c < features.classes.size(); ++c) {
     const std::string name = "shade_surface<" + class_name(features.classes[c]) + ">";
-    if (features.max_depth > 1)
+    if (bounces)
       kernels.shade_surface.push_back(make(name, "shade_surface", with_sampler(features.class_constants(c))));
     else
       kernels.skipped.push_back(name);
   }
   if (features.classes.empty()) kernels.skipped.push_back("shade_surface");
   const bool shadow = features.selection != gpu::kSelectNone && features.strategy != gpu::kStrategyBsdf &&
-                      !features.classes.empty() && features.max_depth > 1;
-  kernels.intersect_shadow = make_if(shadow, "intersect_shadow");
-  if (features.media == 0) {
-    kernels.skipped.push_back("sample_medium");
-    kernels.skipped.push_back("shade_medium");
-  }
+                      (!features.classes.empty() || media) && features.max_depth > 1;
+  // With several classes the kernel must know the materials of all of them.
+  if (shadow && features.media != 0)
+    kernels.intersect_shadow =
+        make("intersect_shadow_transmittance", "intersect_shadow_transmittance", with_sampler(features.union_constants()));
+  else
+    kernels.intersect_shadow = make_if(shadow, "intersect_shadow");
+  kernels.sample_medium = make_if(media, "sample_medium");
+  kernels.shade_medium = make_if(media && features.max_depth > 1, "shade_medium");
   kernels.write_film = make("write_film", "write_film", common);
   const uint32_t moment = 1u << gpu::kAovMoment;
   if (features.aovs & ~moment) kernels.write_aov = make("write_aov", "write_aov", with_sampler(features.union_constants()));

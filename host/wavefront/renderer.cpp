@@ -152,6 +152,8 @@ void Renderer::Impl::warm_up() {
   touch(kernels.intersect_primary);
   touch(kernels.intersect_closest);
   touch(kernels.intersect_shadow);
+  touch(kernels.sample_medium);
+  touch(kernels.shade_medium);
   touch(kernels.shade_emitter);
   touch(kernels.shade_escaped);
   for (const Kernels::Pointer& kernel : kernels.shade_surface) touch(kernel);
@@ -164,6 +166,8 @@ void Renderer::Impl::warm_up() {
 
 // Number of bounces (rays of a path) that can still contribute.
 uint64_t Renderer::Impl::last_bounce() const {
+  // Null surfaces do not count: the queues tell when all paths have ended.
+  if (features.shadow_null) return std::numeric_limits<uint32_t>::max();
   const bool lights_can_be_hit = features.area_lights() || features.environment();
   if (features.max_depth == std::numeric_limits<uint32_t>::max()) return features.max_depth;
   return lights_can_be_hit ? features.max_depth : std::max(features.max_depth, 1u) - 1;
@@ -188,11 +192,13 @@ void Renderer::Impl::record_bounce(WaveParams& wave) {
   };
   queue_dispatch(wave.bounce == 0 ? kernels.intersect_primary : kernels.intersect_closest, gpu::kDispatchClosest);
   if (wave.bounce == 0) dispatch_pixels(kernels.write_aov, wave);
+  queue_dispatch(kernels.sample_medium, gpu::kDispatchQueue + wave.ray_queue);
   prepare(gpu::kPrepareShade);
   queue_dispatch(kernels.shade_escaped, gpu::kDispatchQueue + gpu::kQueueEscaped);
   queue_dispatch(kernels.shade_emitter, gpu::kDispatchQueue + gpu::kQueueEmitter);
   for (uint32_t c = 0; c < kernels.shade_surface.size(); ++c)
     queue_dispatch(kernels.shade_surface[c], gpu::kDispatchQueue + gpu::kQueueSurface + c);
+  queue_dispatch(kernels.shade_medium, gpu::kDispatchQueue + gpu::kQueueSurface + params.class_count);
   ++wave.bounce;
   wave.ray_queue = 1 - wave.ray_queue;
   prepare(gpu::kPrepareTrace);

@@ -29,8 +29,8 @@ std::vector<BufferPlan> plan_buffers(const PackedScene& s, const gpu::RenderPara
   // What only the stages need.
   const uint64_t slots = baked ? 0 : capacity;
   const uint64_t path_bytes = slots * sizeof(glm::vec4) * (media ? gpu::kPathRowsMedia : gpu::kPathRowsBase);
-  const uint64_t queue_bytes = slots * sizeof(uint32_t) * (gpu::kQueueSurface + s.features.classes.size());
-  const uint64_t shadow_bytes = lit ? slots * sizeof(glm::vec4) * gpu::kShadowRows : 0;
+  const uint64_t queue_bytes = slots * sizeof(uint32_t) * (gpu::kQueueSurface + s.features.classes.size() + (s.media.empty() ? 0 : 1));
+  const uint64_t shadow_bytes = lit ? slots * sizeof(glm::vec4) * (media ? gpu::kShadowRowsMedia : gpu::kShadowRows) : 0;
   static const std::vector<glm::uvec4> no_rows_u;
   static const std::vector<glm::vec4> no_rows_f;
   const auto staged_u = [&](const std::vector<glm::uvec4>& rows) -> const auto& { return baked ? no_rows_u : rows; };

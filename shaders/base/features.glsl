@@ -29,6 +29,7 @@ layout(constant_id = kFeatureClass) const uint material_class = 0u;
 layout(constant_id = kFeatureMedia) const uint media_kinds = 0u;
 layout(constant_id = kFeatureShadowNull) const bool shadow_passes_null = false;
 layout(constant_id = kFeatureAov) const uint aov_kinds = 0u;
+layout(constant_id = kFeatureCameraMedium) const uint camera_medium = 0xffffu;
 layout(constant_id = kFeatureTriangles) const bool has_triangles = true;
 
 bool has_bsdf(uint type) { return (bsdf_types & (1u << type)) != 0u; }

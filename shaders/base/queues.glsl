@@ -46,13 +46,15 @@ void append_to_queue(uint queue, bool wanted, uint slot) {
   if (wanted) queue_entries[queue * params.capacity + place] = slot;
 }
 
-void append_shadow_ray(bool wanted, vec3 o, uint leaving, vec3 d, uint target, vec3 contribution, uint slot) {
+// Its place, for what else a kernel has to say of it.
+uint append_shadow_ray(bool wanted, vec3 o, uint leaving, vec3 d, uint target, vec3 contribution, uint slot) {
   uint place = append(kCounterShadow, wanted);
   if (wanted) {
     shadow_rows[place] = vec4(o, uintBitsToFloat(leaving));
     shadow_rows[params.capacity + place] = vec4(d, uintBitsToFloat(target));
     shadow_rows[2u * params.capacity + place] = vec4(contribution, uintBitsToFloat(slot));
   }
+  return place;
 }
 
 // Adds to the radiance of a path; what is not finite is dropped and counted. Only one lane at a time owns a path.

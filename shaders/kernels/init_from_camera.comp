@@ -4,6 +4,7 @@
 layout(local_size_x = 64) in;
 #include "base/queues.glsl"
 #include "path/camera.glsl"
+#include "path/volume_path.glsl"
 
 void main() {
   uint slot = gl_GlobalInvocationID.x;
@@ -21,4 +22,5 @@ void main() {
   store_path(kPathDirection, slot, vec4(ray.d, 0.0));
   store_path(kPathBeta, slot, vec4(1.0));
   store_path(kPathHit, slot, vec4(0.0, 0.0, 0.0, ray.tmax));
+  store_volume_path(slot, VolumePath(camera_medium, 1u, 0.0));
 }

@@ -9,6 +9,8 @@ layout(local_size_x = 64) in;
 #include "geometry/trace_settings.glsl"
 #include "shared/geometry.h"
 layout(set = 0, binding = kBindLeafInfo) uniform usamplerBuffer leaf_info;
+#include "path/sort_path.glsl"
+#include "path/volume_path.glsl"
 
 // Hit ids of this workgroup's rays.
 shared uint hit_ids[kRaysPerGroup];
@@ -50,21 +52,14 @@ void store_hit(uint i, TraceHit hit) {
 void main() {
   uint count = queue_length(wave.ray_queue);
   trace_rays(count, false);
+  if (has_media()) return;  // sample_medium sorts
 
   // All lanes again have a ray each, in the order of the queue.
   subgroupMemoryBarrierShared();
   subgroupBarrier();
-  bool counts = !(hide_emitters && wave.bounce == 0u), goes_on = wave.bounce + 1u < max_depth;
   for (uint k = 0u; k < rays_per_lane(); ++k) {
     uint i = first_ray() + k * gl_SubgroupSize + gl_SubgroupInvocationID;
-    uint id = i < count ? hit_ids[i % kRaysPerGroup] : kNoHit;
     uint slot = i < count ? load_queue(wave.ray_queue, i) : 0u;
-    bool found = id != kNoHit;
-    uint info = texelFetch(leaf_info, found ? int(id >> 1u) : 0).z;
-    uint path_class = (info >> kLeafClassShift) & kLeafClassMask;
-    if (has_area_light()) append_to_queue(kQueueEmitter, found && counts && (info & kLeafEmits) != 0u, slot);
-    if (has_escaped_light()) append_to_queue(kQueueEscaped, i < count && !found && counts, slot);
-    for (uint c = 0u; c < class_count; ++c)
-      append_to_queue(kQueueSurface + c, found && goes_on && path_class == c, slot);
+    sort_path(i < count, slot, i < count ? hit_ids[i % kRaysPerGroup] : kNoHit, load_volume_path(slot).edges);
   }
 }

@@ -5,6 +5,10 @@ layout(local_size_x = 1) in;
 #include "base/features.glsl"
 #include "base/queues.glsl"
 #include "geometry/trace_settings.glsl"
+#include "medium/record.glsl"
+
+// One past the last queue that sorting fills.
+uint queues_end() { return kQueueSurface + class_count + (has_media() ? 1u : 0u); }
 
 void set_groups(uint dispatch, uint lanes, uint lanes_per_group) {
   uint word = kCounterArguments + 4u * dispatch;
@@ -18,12 +22,13 @@ void main() {
     // Shading (or the camera) has queued rays for wave.bounce and shadow rays.
     uint rays = counters[kCounterQueue + wave.ray_queue], shadow = counters[kCounterShadow];
     set_groups(kDispatchClosest, rays, kRaysPerGroup);
-    set_groups(kDispatchShadow, shadow, kRaysPerGroup);
+    set_groups(kDispatchShadow, shadow, is_volumetric() ? kWorkgroupSize : kRaysPerGroup);
+    if (has_media()) set_groups(kDispatchQueue + wave.ray_queue, rays, kWorkgroupSize);
     counters[kCounterClosestTotal] += rays;
     counters[kCounterShadowTotal] += shadow;
-    for (uint q = kQueueEmitter; q < kQueueSurface + class_count; ++q) counters[kCounterQueue + q] = 0u;
+    for (uint q = kQueueEmitter; q < queues_end(); ++q) counters[kCounterQueue + q] = 0u;
   } else {
-    for (uint q = kQueueEmitter; q < kQueueSurface + class_count; ++q)
+    for (uint q = kQueueEmitter; q < queues_end(); ++q)
       set_groups(kDispatchQueue + q, counters[kCounterQueue + q], kWorkgroupSize);
     counters[kCounterQueue + (1u - wave.ray_queue)] = 0u;
     counters[kCounterShadow] = 0u;

@@ -7,6 +7,7 @@ layout(local_size_x = 64) in;
 #include "geometry/surface.glsl"
 #include "light/light.glsl"
 #include "path/mis.glsl"
+#include "path/volume_path.glsl"
 
 void main() {
   uint i = gl_GlobalInvocationID.x;
@@ -17,7 +18,10 @@ void main() {
   Interaction it = load_interaction(hit, origin.xyz, direction.xyz);
   vec3 radiance = emitted_radiance(it, -direction.xyz);
   float selection_key = load_path(kPathRadiance, slot).w;
-  float light_pdf = pdf_light_hit(origin.xyz, selection_key, it, floatBitsToUint(hit.x), direction.xyz, hit.w);
+  // Light was sampled at the last vertex that is not null.
+  float before = load_volume_path(slot).distance;
+  vec3 p = origin.xyz - before * direction.xyz;
+  float light_pdf = pdf_light_hit(p, selection_key, it, floatBitsToUint(hit.x), direction.xyz, before + hit.w);
   float weight = found_light_weight(direction.w, light_pdf);
   if (radiance != vec3(0.0)) add_radiance(slot, weight * load_path(kPathBeta, slot).xyz * radiance);
 }

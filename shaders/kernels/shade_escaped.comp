@@ -5,6 +5,7 @@ layout(local_size_x = 64) in;
 #include "base/queues.glsl"
 #include "light/light.glsl"
 #include "path/mis.glsl"
+#include "path/volume_path.glsl"
 
 void main() {
   uint i = gl_GlobalInvocationID.x;
@@ -12,7 +13,8 @@ void main() {
   uint slot = load_queue(kQueueEscaped, i);
   vec4 direction = load_path(kPathDirection, slot);
   float selection_key = load_path(kPathRadiance, slot).w;
-  float light_pdf = pdf_light_escaped(load_path(kPathOrigin, slot).xyz, selection_key, direction.xyz);
+  vec3 p = load_path(kPathOrigin, slot).xyz - load_volume_path(slot).distance * direction.xyz;
+  float light_pdf = pdf_light_escaped(p, selection_key, direction.xyz);
   float weight = found_light_weight(direction.w, light_pdf);
   add_radiance(slot, weight * load_path(kPathBeta, slot).xyz * escaped_radiance(direction.xyz));
 }

@@ -5,12 +5,14 @@ layout(local_size_x = 64) in;
 #include "base/queues.glsl"
 #include "geometry/load.glsl"
 #include "path/surface_vertex.glsl"
+#include "path/volume_path.glsl"
 
 void main() {
   uint i = gl_GlobalInvocationID.x;
   bool live = i < queue_length(kQueueSurface + material_class);
   uint slot = live ? load_queue(kQueueSurface + material_class, i) : 0u;
-  vec3 d = load_path(kPathDirection, slot).xyz;
+  vec4 direction = load_path(kPathDirection, slot);
+  vec3 d = direction.xyz;
   vec4 beta = load_path(kPathBeta, slot);
   vec4 hit = load_path(kPathHit, slot);
   vec3 o = has_curved ? load_path(kPathOrigin, slot).xyz : vec3(0.0);
@@ -20,24 +22,28 @@ void main() {
   pixel_of(slot_tile_pixel(slot), pixel);
   PathSampler path_sampler = begin_path_sampler(film_pixel(pixel), slot_sample(slot), params.seed);
   vec4 choices = needs_choices() ? choice_sample(path_sampler, wave.bounce) : vec4(0.0);
-  uint edges = wave.bounce + 1u;
+  VolumePath path = load_volume_path(slot);
+  uint edges = path.edges;
+  uvec4 shape = is_volumetric() ? load_shape(it.shape) : uvec4(0u);
 
   float selection_key = 0.0;
-  if (samples_lights(edges)) {
-    vec2 u = path_sample(path_sampler, wave.bounce == 0u ? kGroupCamera : group_directions(wave.bounce - 1u)).zw;
+  if (samples_lights(is_volumetric() ? 1u : edges)) {
+    vec2 u = light_point_sample(path_sampler, edges - 1u);
     ShadowRay ray = sample_direct_light(it, -d, bsdf, beta.xyz, u, choices.x, selection_key);
-    bool wanted = live && ray.wanted;
+    bool wanted = live && ray.wanted && samples_lights(edges);
     if (wanted && !is_finite(ray.contribution)) {
       atomicAdd(counters[kCounterNonfinite], 1u);
       wanted = false;
     }
-    append_shadow_ray(wanted, ray.o, floatBitsToUint(hit.x), ray.d, ray.target, ray.contribution, slot);
+    append_volume_shadow_ray(wanted, ray.o, floatBitsToUint(hit.x), ray.d, ray.target, ray.contribution, slot,
+                             medium_behind(shape, it.n_g, ray.d, path.medium));
   }
 
-  if (goes_on(edges)) {
-    vec2 u = direction_sample(path_sampler, wave.bounce).xy;
+  if (is_volumetric() || goes_on(edges)) {
+    vec2 u = direction_sample(path_sampler, edges - 1u).xy;
     NextRay ray = sample_next_ray(it, -d, bsdf, beta, edges, u, choices.y, choices.z);
-    bool alive = live && ray.alive;
+    bool passes = is_volumetric() && ray.is_null;  // the edge goes on
+    bool alive = live && ray.alive && (passes || goes_on(edges));
     if (alive && !is_finite(ray.beta.xyz)) {
       atomicAdd(counters[kCounterNonfinite], 1u);
       alive = false;
@@ -45,9 +51,11 @@ void main() {
     append_to_queue(1u - wave.ray_queue, alive, slot);
     if (alive) {
       store_path(kPathOrigin, slot, vec4(ray.o, hit.x));
-      store_path(kPathDirection, slot, vec4(ray.d, ray.pdf));
+      store_path(kPathDirection, slot, vec4(ray.d, passes ? direction.w : ray.pdf));
       store_path(kPathBeta, slot, ray.beta);
-      if (light_selection == kSelectLoop || light_selection == kSelectTree)
+      store_volume_path(slot, VolumePath(medium_behind(shape, it.n_g, ray.d, path.medium), edges + (passes ? 0u : 1u),
+                                         passes ? path.distance + hit.w : 0.0));
+      if ((light_selection == kSelectLoop || light_selection == kSelectTree) && !passes)
         store_path(kPathRadiance, slot, vec4(load_path(kPathRadiance, slot).xyz, selection_key));
     }
   }

@@ -21,6 +21,10 @@ vec4 camera_sample(PathSampler s) { return path_sample(s, kGroupCamera); }
 vec2 lens_sample(PathSampler s) { return path_sample(s, kGroupLens).xy; }
 // xy: direction at a vertex; zw: light point of the next vertex.
 vec4 direction_sample(PathSampler s, uint vertex) { return path_sample(s, group_directions(vertex)); }
+// Light point of a vertex, which came with the direction that led there.
+vec2 light_point_sample(PathSampler s, uint vertex) {
+  return path_sample(s, vertex == 0u ? kGroupCamera : group_directions(vertex - 1u)).zw;
+}
 // x: choice of a light, y: of a lobe, z: Russian roulette.
 vec4 choice_sample(PathSampler s, uint vertex) { return path_sample(s, group_choices(vertex)); }
 

@@ -8,6 +8,7 @@
 #include "light/light.glsl"
 #include "path/mis.glsl"
 #include "path/path_sampler.glsl"
+#include "path/termination.glsl"
 #include "shared/path_state.h"
 
 // A ray towards a sampled light; `contribution` counts if nothing lies in between.
@@ -20,6 +21,7 @@ struct ShadowRay {
 
 struct NextRay {
   bool alive;
+  bool is_null;        // straight on, as if there were no surface
   vec3 o, d;
   float pdf;           // [1/sr], 0 after a delta lobe
   vec4 beta;           // throughput; w: eta^2 of refractions, to be undone in roulette
@@ -57,12 +59,7 @@ ShadowRay sample_direct_light(Interaction it, vec3 wo, SurfaceBsdf bsdf, vec3 be
   return ray;
 }
 
-// Survival probability of Russian roulette: twice the largest component of the throughput, at most 0.95, with the
-// scaling of radiance by refraction undone.
-float survival_probability(vec4 beta) { return min(0.95, 2.0 * beta.w * max_component(beta.xyz)); }
-
-// Whether some path takes part in Russian roulette, and whether vertices need the numbers of choice_sample.
-bool has_roulette() { return roulette_depth < max_depth; }
+// Whether vertices need the numbers of choice_sample.
 bool needs_choices() { return has_roulette() || light_selection > kSelectSingle || !only_single_lobes(); }
 
 // The next ray of a path with `edges` edges. u: direction; u_lobe, u_roulette: choices.
@@ -80,12 +77,8 @@ NextRay sample_next_ray(Interaction it, vec3 wo, SurfaceBsdf bsdf, vec4 beta, ui
   ray.o = offset_origin(it, wo, s.wi);
   ray.d = s.wi;
   ray.pdf = s.pdf;
+  ray.is_null = (s.flags & kLobeNull) != 0u;
   return ray;
-}
-
-// Whether a path of `edges` edges goes on: the next ray must still be able to find light.
-bool goes_on(uint edges) {
-  return has_escaped_light() || has_area_light() ? edges < max_depth : edges + 1u < max_depth;
 }
 
 #endif

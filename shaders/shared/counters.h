@@ -12,7 +12,8 @@ TACHYLITE_CONST uint kQueueEmitter = 2u;   // hits on area lights
 TACHYLITE_CONST uint kQueueEscaped = 3u;   // rays that left the scene, if it has an environment
 TACHYLITE_CONST uint kQueueSurface = 4u;   // first of one queue a material class
 TACHYLITE_CONST uint kMaxClasses = 24u;
-TACHYLITE_CONST uint kMaxQueues = kQueueSurface + kMaxClasses;
+// After them, at kQueueSurface + number of classes: collisions in media, where there are any.
+TACHYLITE_CONST uint kMaxQueues = kQueueSurface + kMaxClasses + 1u;
 
 // Words of the counters buffer.
 TACHYLITE_CONST uint kCounterQueue = 0u;                        // length of each queue

@@ -15,7 +15,8 @@ TACHYLITE_CONST uint kPathBeta = 2u;        // throughput; w: eta^2 to undo the 
 TACHYLITE_CONST uint kPathRadiance = 3u;    // L so far; w: key of the light selection at the last vertex
 TACHYLITE_CONST uint kPathHit = 4u;         // bits of 2 * leaf + triangle; b1; b2; t
 TACHYLITE_CONST uint kPathRowsBase = 5u;
-TACHYLITE_CONST uint kPathMedium = 5u;      // media only: bits of the medium; bits of the depth; unused; unused
+TACHYLITE_CONST uint kPathMedium = 5u;      // media or null surfaces only (medium.h): bits of the medium; bits of the number of
+                                            // edges; distance from the last vertex that is not null to o; unused
 TACHYLITE_CONST uint kPathRowsMedia = 6u;
 
 // A shadow ray: kShadowRows rows of vec4 in a compact array (element r * capacity + i of kBindShadow).
@@ -23,7 +24,9 @@ TACHYLITE_CONST uint kPathRowsMedia = 6u;
 //   row 1: d.xyz, not normalised: the light is at o + d; bits of the hit on the light (ignored by the test), or
 //          kTargetPoint (nothing to ignore, tmax = 1), or kTargetInfinite (tmax = infinity)
 //   row 2: contribution to L where nothing is in between; bits of the path's slot
+//   row 3: media or null surfaces only: bits of the medium at o; unused
 TACHYLITE_CONST uint kShadowRows = 3u;
+TACHYLITE_CONST uint kShadowRowsMedia = 4u;
 TACHYLITE_CONST uint kTargetInfinite = 0xffffffffu;
 TACHYLITE_CONST uint kTargetPoint = 0xfffffffeu;
 

@@ -1,0 +1,193 @@
+#include "pack/pack_medium.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <map>
+
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "base/error.h"
+#include "shared/medium.h"
+
+namespace tachylite {
+namespace {
+
+using glm::dvec3;
+using glm::dvec4;
+using glm::vec4;
+
+float bits(uint32_t word) { return std::bit_cast<float>(word); }
+vec4 row(const dvec3& v, uint32_t word = 0) { return vec4(glm::vec3(v), bits(word)); }
+
+/// The unit cube of a grid's own space, in the world.
+dmat4 grid_to_world(const Volume& volume) {
+  if (!volume.use_grid_bbox) return volume.to_world;
+  const dvec3 low = volume.grid->bbox_min, high = volume.grid->bbox_max;
+  return volume.to_world * glm::scale(glm::translate(dmat4(1), low), high - low);
+}
+
+double largest_value(const Volume& volume) {
+  if (!volume.grid) return std::max({volume.constant.x, volume.constant.y, volume.constant.z});
+  const auto& values = volume.grid->values;
+  return values.empty() ? 0.0 : double{*std::max_element(values.begin(), values.end())};
+}
+
+class Packer {
+ public:
+  explicit Packer(const dvec3& centre) : centre_(centre) {}
+
+  void add(const Medium& medium) {
+    const size_t first = media_.size();
+    media_.resize(first + gpu::kMediumRows, vec4(0));
+    vec4* rows = &media_[first];
+    const uint32_t first_lobe = static_cast<uint32_t>(lobes_.size());
+    double before = 0;
+    add_lobes(medium.phase, 1, before);
+    const uint32_t count = static_cast<uint32_t>(lobes_.size()) - first_lobe;
+    if (count > gpu::kMaxLobes)
+      throw InputError(medium.phase.where, fmt::format("a phase function blends {} lobes, at most {} are supported",
+                                                       count, gpu::kMaxLobes));
+    if (count > 1) kinds |= gpu::kMediaBlended;
+    lobe_rows_.push_back(first_lobe);
+
+    const std::optional<HomogeneousMedium> homogeneous = as_homogeneous(medium);
+    if (homogeneous) {
+      const dvec3& sigma_t = homogeneous->sigma_t;
+      rows[0] = row(sigma_t, gpu::kMediumHomogeneous | count << 8);
+      rows[1] = row(homogeneous->albedo);
+      kinds |= gpu::kMediaHomogeneous;
+      if (sigma_t.x != sigma_t.y || sigma_t.x != sigma_t.z) kinds |= gpu::kMediaChromatic;
+      return;
+    }
+    const auto& grid = std::get<HeterogeneousMedium>(medium.kind);
+    kinds |= gpu::kMediaGrids;
+    // A little too large, so that no float product of scale and value is above it.
+    rows[0] = row(dvec3(grid.scale * largest_value(grid.sigma_t) * (1 + 1e-6)), gpu::kMediumGrid | count << 8);
+    dvec3 low(-1e30), high(1e30);
+    if (grid.sigma_t.grid) {
+      low = dvec3(std::numeric_limits<double>::infinity());
+      high = -low;
+      for (int corner = 0; corner < 8; ++corner) {
+        const dvec3 p = dvec3(grid_to_world(grid.sigma_t) * dvec4(corner & 1, (corner >> 1) & 1, corner >> 2, 1));
+        low = glm::min(low, p - centre_);
+        high = glm::max(high, p - centre_);
+      }
+    }
+    rows[2] = vec4(glm::vec3(low), static_cast<float>(grid.scale));
+    rows[3] = row(high);
+    put_volume(grid.sigma_t, rows + gpu::kMediumSigmaRow);
+    put_volume(grid.albedo, rows + gpu::kMediumAlbedoRow);
+  }
+
+  /// Medium without effect.
+  static bool is_nothing(const Medium& medium) {
+    if (const auto homogeneous = as_homogeneous(medium)) return homogeneous->sigma_t == dvec3(0);
+    const auto& grid = std::get<HeterogeneousMedium>(medium.kind);
+    return !(grid.scale * largest_value(grid.sigma_t) > 0);
+  }
+
+  std::vector<vec4> take_rows() {
+    const auto first = static_cast<uint32_t>(media_.size());
+    for (size_t m = 0; m < lobe_rows_.size(); ++m) media_[m * gpu::kMediumRows + 1].w = bits(first + lobe_rows_[m]);
+    media_.insert(media_.end(), lobes_.begin(), lobes_.end());
+    return std::move(media_);
+  }
+
+  std::vector<float> grids;
+  uint32_t kinds = 0;
+
+ private:
+  static std::optional<HomogeneousMedium> as_homogeneous(const Medium& medium) {
+    if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium.kind)) return *homogeneous;
+    const auto& grid = std::get<HeterogeneousMedium>(medium.kind);
+    if (grid.sigma_t.grid || grid.albedo.grid) return std::nullopt;
+    return HomogeneousMedium{grid.scale * grid.sigma_t.constant, grid.albedo.constant};
+  }
+
+  void add_lobes(const PhaseFunction& phase, double weight, double& before) {
+    if (const auto* blend = std::get_if<BlendPhase>(&phase.kind)) {
+      if (blend->weight < 1) add_lobes(*blend->first, weight * (1 - blend->weight), before);
+      if (blend->weight > 0) add_lobes(*blend->second, weight * blend->weight, before);
+      return;
+    }
+    const auto* hg = std::get_if<HenyeyGreensteinPhase>(&phase.kind);
+    before += weight;
+    lobes_.push_back(row(dvec3(before, weight, hg ? hg->g : 0.0)));
+  }
+
+  void put_volume(const Volume& volume, vec4* rows) {
+    if (!volume.grid) {
+      rows[0] = row(volume.constant);
+      return;
+    }
+    const Grid& grid = *volume.grid;
+    if (std::max({grid.nx, grid.ny, grid.nz}) > 0xffff)
+      throw InputError(volume.where, fmt::format("{}: a grid of {} x {} x {} is too large, at most 65535 a side",
+                                                 grid.path, grid.nx, grid.ny, grid.nz));
+    const dmat4 to_index = glm::scale(dmat4(1), dvec3(grid.nx, grid.ny, grid.nz)) *
+                           glm::inverse(grid_to_world(volume)) * glm::translate(dmat4(1), centre_);
+    for (int r = 0; r < 3; ++r) rows[r] = vec4(glm::row(to_index, r));
+    const uint32_t channels = grid.channels < 3 ? 1 : 3;
+    const uint32_t filtering = volume.filter == FilterType::kNearest ? gpu::kVolumeNearest : gpu::kVolumeTrilinear;
+    const uint32_t wrap = volume.wrap == WrapMode::kRepeat   ? gpu::kVolumeRepeat
+                          : volume.wrap == WrapMode::kMirror ? gpu::kVolumeMirror
+                                                             : gpu::kVolumeClamp;
+    rows[3] = vec4(bits(static_cast<uint32_t>(grid.nx) | static_cast<uint32_t>(grid.ny) << 16),
+                   bits(static_cast<uint32_t>(grid.nz) | channels << 16 | filtering << 24 | wrap << 28),
+                   bits(first_value(volume, channels)), 0);
+  }
+
+  /// Where the grid's values begin; each grid is stored once.
+  uint32_t first_value(const Volume& volume, uint32_t channels) {
+    const Grid& grid = *volume.grid;
+    const auto [found, is_new] = first_of_grid_.try_emplace(&grid, grids.size());
+    if (!is_new) return static_cast<uint32_t>(found->second);
+    const size_t stride = static_cast<size_t>(grid.channels), voxels = grid.values.size() / stride;
+    if (grids.size() + voxels * channels > static_cast<size_t>(std::numeric_limits<int32_t>::max()))
+      throw InputError(volume.where, fmt::format("{}: the grids of the scene hold more than 2^31 values", grid.path));
+    for (size_t v = 0; v < voxels; ++v)
+      for (size_t c = 0; c < channels; ++c) grids.push_back(grid.values[v * stride + c]);
+    return static_cast<uint32_t>(found->second);
+  }
+
+  dvec3 centre_;
+  std::vector<vec4> media_, lobes_;
+  std::vector<uint32_t> lobe_rows_;  // of each medium, counted from the first lobe
+  std::map<const Grid*, size_t> first_of_grid_;
+};
+
+}  // namespace
+
+uint32_t PackedMedia::index(MediumIndex medium) const {
+  return medium == kNone || index_of_medium.empty() ? gpu::kNoMedium : index_of_medium[static_cast<size_t>(medium)];
+}
+
+PackedMedia pack_media(const Scene& scene, const Sensor& sensor, const dvec3& centre) {
+  std::vector<bool> used(scene.media.size());
+  const auto use = [&](MediumIndex medium) {
+    if (medium != kNone) used[static_cast<size_t>(medium)] = true;
+  };
+  use(sensor.medium);
+  for (const Shape& shape : scene.shapes) {
+    use(shape.interior);
+    use(shape.exterior);
+  }
+  PackedMedia out;
+  Packer packer(centre);
+  uint32_t count = 0;
+  for (size_t m = 0; m < scene.media.size(); ++m) {
+    const bool kept = used[m] && !Packer::is_nothing(scene.media[m]);
+    if (kept && count == gpu::kNoMedium)
+      throw InputError(scene.media[m].where, fmt::format("more than {} media", gpu::kNoMedium));
+    if (kept) packer.add(scene.media[m]);
+    out.index_of_medium.push_back(kept ? count++ : gpu::kNoMedium);
+  }
+  out.rows = packer.take_rows();
+  out.grids = std::move(packer.grids);
+  out.kinds = packer.kinds;
+  return out;
+}
+
+}  // namespace tachylite

@@ -1,0 +1,60 @@
+// One collision in a medium: a shadow ray towards a sampled light, and the next ray by the phase function.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+layout(local_size_x = 64) in;
+#include "base/queues.glsl"
+#include "light/light.glsl"
+#include "medium/phase.glsl"
+#include "path/mis.glsl"
+#include "path/path_sampler.glsl"
+#include "path/termination.glsl"
+#include "path/volume_path.glsl"
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  bool live = i < queue_length(kQueueSurface + class_count);
+  uint slot = live ? load_queue(kQueueSurface + class_count, i) : 0u;
+  vec3 d = load_path(kPathDirection, slot).xyz;
+  vec3 p = load_path(kPathOrigin, slot).xyz + load_path(kPathHit, slot).w * d;
+  vec4 beta = load_path(kPathBeta, slot);
+  VolumePath path = load_volume_path(slot);
+  Phase phase = load_phase(live ? path.medium : 0u);
+  uvec2 pixel;
+  pixel_of(slot_tile_pixel(slot), pixel);
+  PathSampler path_sampler = begin_path_sampler(film_pixel(pixel), slot_sample(slot), params.seed);
+  vec4 choices = choice_sample(path_sampler, wave.bounce);
+  uint vertex = path.edges - 1u;
+
+  float selection_key = 0.0;
+  if (light_selection != kSelectNone && strategy != kStrategyBsdf) {
+    vec2 u = light_point_sample(path_sampler, vertex);
+    LightSample light = sample_light(p, vec3(0.0), u, choices.x, selection_key);
+    float pdf = eval_phase(phase, d, light.wi);
+    float weight = light.delta || strategy == kStrategyEmitter ? 1.0 : mis_weight(light.pdf, pdf);
+    vec3 contribution = beta.xyz * pdf * light.radiance * (weight / light.pdf);
+    bool wanted = live && light.pdf > 0.0 && contribution != vec3(0.0);
+    if (wanted && !is_finite(contribution)) {
+      atomicAdd(counters[kCounterNonfinite], 1u);
+      wanted = false;
+    }
+    append_volume_shadow_ray(wanted, p, kNoHit, light.target == kTargetInfinite ? light.wi : light.to_light,
+                             light.target, contribution, slot, path.medium);
+  }
+
+  vec3 wi = sample_phase(phase, d, direction_sample(path_sampler, vertex).xy, choices.y);
+  bool alive = live && goes_on(path.edges);
+  if (has_roulette() && path.edges >= roulette_depth) {
+    float q = survival_probability(beta);
+    alive = alive && choices.z < q;
+    beta.xyz /= q;
+  }
+  append_to_queue(1u - wave.ray_queue, alive, slot);
+  if (alive) {
+    store_path(kPathOrigin, slot, vec4(p, uintBitsToFloat(kNoHit)));
+    store_path(kPathDirection, slot, vec4(wi, eval_phase(phase, d, wi)));
+    store_path(kPathBeta, slot, beta);
+    store_volume_path(slot, VolumePath(path.medium, path.edges + 1u, 0.0));
+    if (light_selection == kSelectLoop || light_selection == kSelectTree)
+      store_path(kPathRadiance, slot, vec4(load_path(kPathRadiance, slot).xyz, selection_key));
+  }
+}

@@ -1,0 +1,124 @@
+// Media whose coefficients are grids: delta and ratio tracking with a majorant of the whole medium.
+#ifndef TACHYLITE_MEDIUM_GRID_GLSL
+#define TACHYLITE_MEDIUM_GRID_GLSL
+#include "base/math.glsl"
+#include "medium/free_flight.glsl"
+#include "medium/record.glsl"
+#include "shared/sampler.h"
+
+layout(set = 0, binding = kBindGrids) uniform samplerBuffer grids;
+
+// Numbers of a walk: a hash of the path, the segment and the step.
+struct WalkRandom {
+  uint key, index, segment;
+};
+vec2 walk_numbers(WalkRandom random, uint step) {
+  uvec4 bits = hash_pcg4d(uvec4(random.key, random.index, 0x3c6ef372u + random.segment, step));
+  return vec2(min((float(bits.x) + 0.5) * 2.3283064e-10, 1.0 - kEpsilon), unit_float(bits.y));
+}
+
+ivec3 wrap_voxel(ivec3 i, ivec3 n, uint wrap) {
+  ivec3 clamped = clamp(i, ivec3(0), n - 1);
+  // Indices lie at most a cell outside the grid for `clamp`, anywhere for the others.
+  ivec3 twice = 2 * n;
+  ivec3 repeated = i - n * ivec3(floor(vec3(i) / vec3(n)));
+  ivec3 mirrored = i - twice * ivec3(floor(vec3(i) / vec3(twice)));
+  mirrored = min(mirrored, twice - 1 - mirrored);
+  return wrap == kVolumeClamp ? clamped : clamp(wrap == kVolumeRepeat ? repeated : mirrored, ivec3(0), n - 1);
+}
+
+struct VolumeShape {
+  ivec3 n;
+  uint channels, filtering, wrap, first;
+};
+
+vec3 load_voxel(VolumeShape v, ivec3 i) {
+  i = wrap_voxel(i, v.n, v.wrap);
+  int at = int(v.first) + ((i.z * v.n.y + i.y) * v.n.x + i.x) * int(v.channels);
+  float x = texelFetch(grids, at).x;
+  return v.channels == 1u ? vec3(x) : vec3(x, texelFetch(grids, at + 1).x, texelFetch(grids, at + 2).x);
+}
+
+// Value of the volume at row `row`, at a point of device space.
+vec3 load_volume(uint row, vec3 p) {
+  vec4 r0 = load_medium(row), r1 = load_medium(row + 1u), r2 = load_medium(row + 2u);
+  uvec4 shape = floatBitsToUint(load_medium(row + 3u));
+  VolumeShape v = VolumeShape(ivec3(shape.x & 0xffffu, shape.x >> 16u, shape.y & 0xffffu), (shape.y >> 16u) & 0xffu,
+                              (shape.y >> 24u) & 0xfu, shape.y >> 28u, shape.z);
+  if (v.channels == 0u) return r0.xyz;
+  vec3 q = vec3(dot(r0.xyz, p) + r0.w, dot(r1.xyz, p) + r1.w, dot(r2.xyz, p) + r2.w);
+  q = clamp(q, vec3(-1e6), vec3(1e6));
+  if (v.filtering == kVolumeNearest) return load_voxel(v, ivec3(floor(q)));
+  vec3 base = floor(q - 0.5), f = q - 0.5 - base;
+  vec3 sum = vec3(0.0);
+  for (int corner = 0; corner < 8; ++corner) {
+    ivec3 offset = ivec3(corner & 1, (corner >> 1) & 1, corner >> 2);
+    vec3 w = mix(1.0 - f, f, vec3(offset));
+    sum += w.x * w.y * w.z * load_voxel(v, ivec3(base) + offset);
+  }
+  return sum;
+}
+
+// The part of a ray in the medium's box, as an interval of t in [0, tmax]; begin >= end: none.
+vec2 clip_to_box(vec3 low, vec3 high, vec3 o, vec3 d, float tmax) {
+  vec3 safe = mix(d, vec3(1e-30), lessThan(abs(d), vec3(1e-30)));
+  vec3 a = (low - o) / safe, b = (high - o) / safe;
+  vec3 enter = min(a, b), leave = max(a, b);
+  return vec2(max(max_component(enter), 0.0), min(min_component(leave), tmax));
+}
+
+// A tentative collision is real with the probability sigma_t / majorant, averaged over the channels in proportion to
+// the throughput; both outcomes are weighted by that average (Miller, Georgiev and Jarosz 2019, single-sample balance
+// heuristic over the channels): the sum of the throughput never grows. overflow: tracking was cut short.
+FreeFlight fly_grid(uint medium, vec3 o, vec3 d, float tmax, vec3 beta, WalkRandom random, inout bool overflow) {
+  uint row = medium * kMediumRows;
+  vec4 low = load_medium(row + 2u), high = load_medium(row + 3u);
+  float majorant = load_medium(row).x;
+  vec2 inside = clip_to_box(low.xyz, high.xyz, o, d, tmax);
+  FreeFlight flight = FreeFlight(false, inside.x, beta);
+  bool going = inside.x < inside.y && majorant > 0.0;
+  uint steps = 0u;
+  while (going) {
+    vec2 u = walk_numbers(random, steps);
+    flight.t -= xlog1p(-u.x) / majorant;
+    steps += 1u;
+    bool within = flight.t < inside.y;
+    vec3 p = o + min(flight.t, inside.y) * d;
+    vec3 real = min(low.w * load_volume(row + kMediumSigmaRow, p) / majorant, vec3(1.0));
+    float probability = dot(flight.beta, real) / (flight.beta.x + flight.beta.y + flight.beta.z);
+    bool collides = within && u.y < probability;
+    vec3 factor = collides ? real / probability : (1.0 - real) / (1.0 - probability);
+    flight.beta = within ? flight.beta * factor : flight.beta;
+    flight.collides = collides;
+    going = within && !collides && steps < kMaxCollisions;
+  }
+  overflow = overflow || steps == kMaxCollisions;
+  if (flight.collides) flight.beta *= load_volume(row + kMediumAlbedoRow, o + flight.t * d);
+  if (!flight.collides) flight.t = tmax;
+  return flight;
+}
+
+// An unbiased estimate of the transmittance up to tmax (d of any length): ratio tracking, Novak, Selle and Jarosz
+// 2014, "Residual Ratio Tracking for Estimating Attenuation in Participating Media".
+vec3 transmittance_grid(uint medium, vec3 o, vec3 d, float tmax, WalkRandom random, inout bool overflow) {
+  uint row = medium * kMediumRows;
+  vec4 low = load_medium(row + 2u), high = load_medium(row + 3u);
+  float majorant = load_medium(row).x, per_t = majorant * length(d);
+  vec2 inside = clip_to_box(low.xyz, high.xyz, o, d, tmax);
+  vec3 transmittance = vec3(1.0);
+  float t = inside.x;
+  bool going = inside.x < inside.y && majorant > 0.0;
+  uint steps = 0u;
+  while (going) {
+    t -= xlog1p(-walk_numbers(random, steps).x) / per_t;
+    steps += 1u;
+    bool within = t < inside.y;
+    vec3 real = min(low.w * load_volume(row + kMediumSigmaRow, o + min(t, inside.y) * d) / majorant, vec3(1.0));
+    transmittance = within ? transmittance * (1.0 - real) : transmittance;
+    going = within && transmittance != vec3(0.0) && steps < kMaxCollisions;
+  }
+  overflow = overflow || steps == kMaxCollisions;
+  return transmittance;
+}
+
+#endif
