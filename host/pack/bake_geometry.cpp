@@ -21,10 +21,16 @@ constexpr double kOverlap = 1e-6;       // by which faces are widened: rounding 
 
 bool paths_are_short(const FeatureSet& f) { return std::min(f.max_depth, f.roulette_depth) <= kLongestPath; }
 
+// The kernel that follows whole paths has no other bsdf; more would compile for seconds.
+bool is_diffuse(const MaterialClass& c) {
+  return c.max_leaves <= 1 && (c.bsdfs & ~(1u << gpu::kBsdfNull | 1u << gpu::kBsdfDiffuse)) == 0;
+}
+
 bool fits(const PackedScene& scene) {
   const FeatureSet& f = scene.features;
   const bool flat = !f.vertex_normals && !f.vertex_uv && f.textures == 0 && !f.light_textures && f.aovs == 0;
-  return flat && f.media == 0 && !f.hide_emitters && f.classes.size() == 1 && paths_are_short(f) &&
+  return flat && f.media == 0 && !f.hide_emitters && f.classes.size() == 1 && is_diffuse(f.classes[0]) &&
+         paths_are_short(f) &&
          scene.bvh.leaf_info.size() <= gpu::kMaxBaked && !scene.bvh.leaf_info.empty();
 }
 

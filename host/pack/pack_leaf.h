@@ -16,7 +16,7 @@ namespace tachylite {
 /// The rows of one leaf after its header, and what they ask of a kernel.
 struct PackedLeaf {
   uint32_t type = 0, options = 0;  // kBsdf..., kOption...
-  uint32_t flags = 0;              // kMaterial...: Textured, Tangent, Smooth, Delta, Beckmann, Ggx, Null
+  uint32_t flags = 0;              // kMaterial... that the leaf asks for
   uint32_t textured = 0;           // set of the inputs that are textures
   bool scatters = true;            // false: f is 0 everywhere
   std::vector<glm::uvec4> rows;

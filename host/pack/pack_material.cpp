@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <memory>
 
 #include "base/check.h"
@@ -36,11 +37,10 @@ struct Context {
   uint32_t mirrors = 0;
   Frame frame;
   int sides = kFront | kBack;
-  bool inside_twosided = false;
 };
 struct FlatMaterial {
   std::array<std::vector<std::shared_ptr<const FlatLeaf>>, 2> lists;  // in front, behind
-  bool has_null = false;
+  bool has_null = false;  // a part beside the leaves
 };
 
 class Flattener {
@@ -69,23 +69,23 @@ class Flattener {
   template <class Kind>
   void visit_kind(const Bsdf& bsdf, const Kind&, const Context& context) {
     std::optional<PackedLeaf> leaf = pack_leaf(bsdf, row_of_texture_);
-    if (!leaf) return add_null(bsdf, context);
-    if ((leaf->flags & gpu::kMaterialNull) != 0) add_null(bsdf, context);
-    add(std::move(*leaf), context);
+    if (leaf)
+      add(std::move(*leaf), context);
+    else
+      material_.has_null = true;
   }
-  void visit_kind(const Bsdf& bsdf, const NullBsdf&, const Context& context) { add_null(bsdf, context); }
+  void visit_kind(const Bsdf&, const NullBsdf&, const Context&) { material_.has_null = true; }
   void visit_kind(const Bsdf& bsdf, const PaperBsdf& paper, const Context& context) {
-    std::optional<Context> transparent = weighted(context, {paper.transparency, false});
+    if (weighted(context, {paper.transparency, false})) material_.has_null = true;
     std::optional<Context> opaque = weighted(context, {paper.transparency, true});
-    if (transparent) add_null(bsdf, *transparent);
     if (!opaque) return;
     Bsdf diffuse = bsdf;
     diffuse.kind = DiffuseBsdf{paper.reflectance};
     mirror(*opaque);
     add(*pack_leaf(diffuse, row_of_texture_), *opaque);
   }
-  void visit_kind(const Bsdf& bsdf, const MaskBsdf& mask, const Context& context) {
-    if (std::optional<Context> transparent = weighted(context, {mask.opacity, true})) add_null(bsdf, *transparent);
+  void visit_kind(const Bsdf&, const MaskBsdf& mask, const Context& context) {
+    if (weighted(context, {mask.opacity, true})) material_.has_null = true;
     if (std::optional<Context> opaque = weighted(context, {mask.opacity, false})) visit(mask.child, *opaque);
   }
   void visit_kind(const Bsdf&, const BlendBsdf& blend, const Context& context) {
@@ -94,7 +94,6 @@ class Flattener {
   }
   void visit_kind(const Bsdf&, const TwoSidedBsdf& two_sided, const Context& context) {
     Context front = context;
-    front.inside_twosided = true;
     if (two_sided.front == two_sided.back || two_sided.back == kNone) {
       mirror(front);
       return visit(two_sided.front, front);
@@ -142,11 +141,6 @@ class Flattener {
   }
   static void mirror(Context& context) {
     context.mirrors |= context.frame.kind == gpu::kFrameNone ? gpu::kMirrorOuter : gpu::kMirrorInner;
-  }
-  void add_null(const Bsdf& bsdf, const Context& context) {
-    if (context.inside_twosided)
-      throw InputError(bsdf.where, "twosided: only bsdfs without transmission can be nested");
-    material_.has_null = true;
   }
   void add(PackedLeaf leaf, const Context& context) {
     auto flat = std::make_shared<const FlatLeaf>(
@@ -266,6 +260,19 @@ PackedMaterials pack_materials(const Scene& scene, std::span<const uint32_t> row
       throw InputError(scene.bsdfs[bsdf].where, fmt::format("more than {} kinds of material", gpu::kClassNone));
   }
   return packed;
+}
+
+std::string bsdf_kernel_variant(const MaterialClass& c) {
+  static constexpr const char* kNames[] = {
+      "_diffuse",          "_diffuse", "_rough_diffuse", "_conductor",  "_rough_conductor", "_dielectric",  "_thin_dielectric",
+      "_rough_dielectric", "_plastic", "_rough_plastic", "_principled", "_principled_thin", "_blinn_phong", "_microfacet"};
+  constexpr uint32_t kPrincipled = 1u << gpu::kBsdfPrincipled | 1u << gpu::kBsdfPrincipledThin;
+  const uint32_t types = c.bsdfs & ~(1u << gpu::kBsdfNull);  // none: null alone, for which any variant does
+  const bool textured = c.textured != 0 || (c.flags & gpu::kMaterialHasFrames) != 0;
+  if (c.max_leaves <= 1 && std::popcount(types) <= 1)
+    return std::string(kNames[types == 0 ? 0 : std::countr_zero(types)]) + (textured ? "_textured" : "");
+  if (!textured) return "_mixture";
+  return (types & kPrincipled) == 0 ? "_mixture_textured" : "";
 }
 
 }  // namespace tachylite

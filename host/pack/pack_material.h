@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -20,8 +21,11 @@ struct PackedMaterials {
 };
 
 /// row_of_texture: for each of Scene::textures, its row in kBindTextures.
-/// Throws InputError for what Mitsuba refuses too (a transmitting child of `twosided`), and for more than
-/// kMaterialMaxLeaves bsdfs in one blend.
+/// Throws InputError for more than kMaterialMaxLeaves bsdfs in one blend, and for a normal or bump map inside another.
 PackedMaterials pack_materials(const Scene& scene, std::span<const uint32_t> row_of_texture);
+
+/// What the name of a kernel that shades surfaces ends with in the variant for that class (cmake/BsdfVariants.cmake):
+/// "_diffuse", "_principled_textured", "_mixture" ...
+std::string bsdf_kernel_variant(const MaterialClass& material_class);
 
 }  // namespace tachylite

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "kernel_spirv.h"
+#include "pack/pack_material.h"
 #include "shared/aov.h"
 #include "shared/baked.h"
 #include "shared/material.h"
@@ -45,7 +46,7 @@ Kernels build_kernels(vulkan::Device& device, const vulkan::BindingTable& table,
   common = with_sampler(common);
 
   Kernels kernels;
-  const auto make = [&](const std::string& name, const char* file, const SpecializationConstants& constants) {
+  const auto make = [&](const std::string& name, const std::string& file, const SpecializationConstants& constants) {
     kernels.run.push_back(name);
     return std::make_unique<Kernel>(device, table, name, kernel_spirv(file), constants);
   };
@@ -54,7 +55,7 @@ Kernels build_kernels(vulkan::Device& device, const vulkan::BindingTable& table,
     constants.insert(baked->constants.begin(), baked->constants.end());
     const uint32_t rounded = (baked->count + 7) / 8 * 8;
     const std::string file = fmt::format("follow_paths_{}", rounded <= 32 ? rounded : gpu::kMaxBaked);
-    kernels.follow_paths = make("follow_paths", file.c_str(), constants);
+    kernels.follow_paths = make("follow_paths", file, constants);
     kernels.skipped = {"tree", "path state and queues", "intersect_closest", "intersect_shadow", "shade_surface"};
     return kernels;
   }
@@ -76,7 +77,8 @@ Kernels build_kernels(vulkan::Device& device, const vulkan::BindingTable& table,
   for (size_t c = 0; c < features.classes.size(); ++c) {
     const std::string name = "shade_surface<" + class_name(features.classes[c]) + ">";
     if (bounces)
-      kernels.shade_surface.push_back(make(name, "shade_surface", with_sampler(features.class_constants(c))));
+      kernels.shade_surface.push_back(make(name, "shade_surface" + bsdf_kernel_variant(features.classes[c]),
+                                           with_sampler(features.class_constants(c))));
     else
       kernels.skipped.push_back(name);
   }

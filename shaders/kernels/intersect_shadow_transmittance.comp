@@ -6,7 +6,7 @@ layout(local_size_x = 64) in;
 #include "geometry/load.glsl"
 #include "geometry/surface.glsl"
 #include "geometry/bvh.glsl"
-#include "bsdf/bsdf.glsl"
+#include "bsdf/null_transmission.glsl"
 #include "medium/medium.glsl"
 #include "path/path_sampler.glsl"
 

@@ -13,8 +13,9 @@
 //   then the inputs and constants of its type, as its file in shaders/bsdf says; then, where the frame kind is not
 //   kFrameNone, one row (scale bits, unused, unused, texture row); then the weights, one scalar input each
 //   (kInputComplement in the texture word: use 1 - value). A weight is clamped to [0, 1].
-// Input (one row): (r, g, b as float bits; row of the texture in kBindTextures, or kNoTexture).
-//   A scalar input repeats its value in r g b.
+// Input (one row): (r, g, b as float bits; row of the texture in kBindTextures, or kNoTexture). A weight has its value
+//   in r. Other scalars come as a pair (two values, two texture rows) or a quad (a row of values, a row of texture
+//   rows; the latter is read only where the class says that one is a texture).
 #ifndef TACHYLITE_SHARED_MATERIAL_H
 #define TACHYLITE_SHARED_MATERIAL_H
 #include "interop.h"
@@ -41,11 +42,8 @@ TACHYLITE_CONST uint kBsdfMicrofacet = 13u;
 TACHYLITE_CONST uint kMirrorOuter = 1u;
 TACHYLITE_CONST uint kMirrorInner = 2u;
 
-// Options of a leaf (which of them matter depends on the type).
+// Options of a leaf.
 TACHYLITE_CONST uint kOptionGgx = 1u;          // else Beckmann
-TACHYLITE_CONST uint kOptionNonlinear = 2u;    // plastic, roughplastic
-TACHYLITE_CONST uint kOptionAnisotropic = 4u;
-TACHYLITE_CONST uint kOptionSpecularWeight = 8u; // blinnphong
 
 TACHYLITE_CONST uint kFrameNone = 0u;
 TACHYLITE_CONST uint kFrameNormalMap = 1u;
@@ -55,8 +53,8 @@ TACHYLITE_CONST uint kFrameShadowing = 2u;
 
 TACHYLITE_CONST uint kNoTexture = 0x7fffffffu;
 TACHYLITE_CONST uint kInputComplement = 0x80000000u;  // on a weight: 1 - value
-// Set of the inputs that are textures in some material of a class (kFeatureTexturedInputs): bit i is input i of the
-// leaves, in the order of their rows.
+// Set of the inputs that are textures in some material of a class (kFeatureTexturedInputs): bit i is row i after the
+// leaf's header.
 TACHYLITE_CONST uint kTexturedWeights = 1u << 31u;
 
 // Flags of a material, also of the class a kernel is compiled for.
@@ -71,7 +69,10 @@ TACHYLITE_CONST uint kMaterialGgx = 128u;
 TACHYLITE_CONST uint kMaterialTwoSided = 256u;   // every leaf has kMirrorOuter
 TACHYLITE_CONST uint kMaterialSides = 512u;      // lists of front and back differ, or only some leaves mirror
 TACHYLITE_CONST uint kMaterialNull = 1024u;      // a null part: shadow rays may pass
+TACHYLITE_CONST uint kMaterialTransmits = 2048u; // principled: spec_trans
+TACHYLITE_CONST uint kMaterialClearcoat = 4096u; // principled: clearcoat
 TACHYLITE_CONST uint kMaterialMaxLeaves = 8u;    // in one list
+TACHYLITE_CONST uint kRoughTransmittanceSize = 64u;  // entries of roughplastic's table
 
 TACHYLITE_SHARED_END
 #endif
