@@ -81,11 +81,14 @@ BsdfSample sample_principled_thin(PrincipledThinBsdf b, vec3 wo_leaf, vec2 u, fl
   bool specular = u_lobe < sums.y;
   bool reflects = u_lobe < sums.x || (u_lobe >= sums.y && (u_lobe < sums.z || b.probability.w == 0.0));
   vec2 alpha = reflects ? b.reflection.alpha : b.transmission.alpha;
-  vec3 up = specular ? reflect_about(wo, sample_visible_ggx(alpha, wo, u, 1.0)) : sample_cosine_hemisphere(u);
+  vec3 m = sample_visible_ggx(alpha, wo, u, 1.0);
+  vec3 up = specular ? reflect_about(wo, m) : sample_cosine_hemisphere(u);
   vec3 wi_leaf = turn * vec3(up.xy, reflects ? up.z : -up.z);
   BsdfEval eval = eval_principled_thin(b, wo_leaf, wi_leaf);
   BsdfSample s = BsdfSample(wi_leaf, eval.f / eval.pdf, eval.pdf, reflects ? 0u : kLobeTransmission, 1.0);
-  if (!(eval.pdf > 0.0 && up.z > 0.0)) s = absorbed();
+  // What eval_principled_thin does not count as this lobe must not be sampled by it.
+  bool hidden = specular && !reflects && up.x * m.x + up.y * m.y - up.z * m.z >= 0.0;
+  if (hidden || !(eval.pdf > 0.0 && up.z > 0.0)) s = absorbed();
   return s;
 }
 

@@ -1,0 +1,28 @@
+#pragma once
+
+// Every material of shaders/bsdf, as a row of the tests in this folder. A new material adds a row.
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace tachylite::test {
+
+struct MaterialCase {
+  std::string name;
+  BsdfKind kind;
+  double alpha = 1;         // width of the narrowest lobe that is no delta
+  double eta = 1;           // inside over outside, where light passes
+  bool two_sided = false;   // seen from behind, too
+  bool conserves = true;    // no albedo above 1
+  bool reciprocal = true;
+};
+
+/// One of each type and variant, at middling parameters.
+std::vector<MaterialCase> all_materials();
+
+/// The rough ones over distribution, roughness and eta.
+std::vector<MaterialCase> rough_materials();
+
+}  // namespace tachylite::test
