@@ -103,7 +103,7 @@ BsdfEval eval_principled(PrincipledBsdf b, vec3 wo_leaf, vec3 wi_leaf) {
 
   bool front = b.outside && reflects;
   float lambert = front ? pdf_cosine_hemisphere(wi.z) : 0.0;
-  f += b.base_color * (b.diffuse * lambert * disney_diffuse(wo.z, wi.z, c, b.roughness, b.flatness));
+  f += b.base_color * (b.diffuse * lambert * disney_diffuse(wo.z, abs(wi.z), c, b.roughness, b.flatness));
   f += disney_sheen(b.base_color, b.sheen, b.sheen_tint, c) * ((1.0 - b.metallic) * kPi * lambert);
   pdf += b.probability.x * lambert;
   if (has_material(kMaterialClearcoat)) {

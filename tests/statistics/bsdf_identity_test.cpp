@@ -1,0 +1,121 @@
+// Identities of materials, bit for bit, and finite answers everywhere: on the device.
+
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "statistics/bsdf_materials.h"
+#include "statistics/bsdf_probe.h"
+#include "support/device_test.h"
+
+namespace tachylite::test {
+namespace {
+
+std::vector<BsdfQuery> queries_for(int bsdf, int count) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> uniform(0, 0.9999f);
+  std::vector<BsdfQuery> queries;
+  for (int i = 0; i < count; ++i) {
+    const auto sphere = [&](float z) {
+      const float phi = 6.2831853f * uniform(random), r = std::sqrt(std::max(0.0f, 1 - z * z));
+      return glm::vec3(r * std::cos(phi), r * std::sin(phi), z);
+    };
+    // A quarter of the directions graze, to 1e-6.
+    const auto cosine = [&] {
+      const float z = i % 4 == 0 ? std::pow(10.0f, -6 * uniform(random)) : uniform(random);
+      return uniform(random) < 0.3f ? -z : z;
+    };
+    queries.push_back({.bsdf = bsdf, .wo = sphere(cosine()), .wi = sphere(cosine()),
+                       .u = {uniform(random), uniform(random)}, .u_lobe = uniform(random)});
+  }
+  return queries;
+}
+
+struct BsdfIdentity : DeviceTest {
+  // Both bsdfs give the same bits.
+  void expect_same(std::vector<BsdfKind> children, BsdfKind a, BsdfKind b) {
+    children.push_back(a);
+    children.push_back(b);
+    const int first = static_cast<int>(children.size()) - 2;
+    BsdfProbe probe(scene_of_bsdfs(children));
+    const auto x = probe.ask(queries_for(first, 4096)), y = probe.ask(queries_for(first + 1, 4096));
+    for (size_t i = 0; i < x.size(); ++i) ASSERT_EQ(std::memcmp(&x[i], &y[i], sizeof(x[i])), 0) << i;
+  }
+};
+
+Roughness smooth() {
+  Roughness r;
+  r.alpha_u = r.alpha_v = 0.0;
+  return r;
+}
+
+TEST_F(BsdfIdentity, RoughWithoutRoughnessIsSmooth) {
+  expect_same({}, RoughDielectricBsdf{1.5, smooth()}, DielectricBsdf{1.5});
+  expect_same({}, RoughConductorBsdf{smooth()}, ConductorBsdf{});
+  expect_same({}, RoughPlasticBsdf{1.49, smooth()}, PlasticBsdf{1.49});
+}
+TEST_F(BsdfIdentity, MatchedIndexIsNothing) {
+  expect_same({}, DielectricBsdf{1.0}, NullBsdf{});
+  expect_same({}, RoughDielectricBsdf{1.0}, NullBsdf{});
+}
+TEST_F(BsdfIdentity, PaperAtItsEnds) {
+  expect_same({DiffuseBsdf{0.7}}, PaperBsdf{0.7, 0.0}, TwoSidedBsdf{0, 0});
+  expect_same({}, PaperBsdf{0.7, 1.0}, NullBsdf{});
+}
+TEST_F(BsdfIdentity, MaskAndBlendAtTheirEnds) {
+  const std::vector<BsdfKind> children = {PlasticBsdf{}, RoughConductorBsdf{}};
+  expect_same(children, MaskBsdf{0, 1.0}, PlasticBsdf{});
+  expect_same(children, MaskBsdf{0, 0.0}, NullBsdf{});
+  expect_same(children, BlendBsdf{0, 1, 0.0}, PlasticBsdf{});
+  expect_same(children, BlendBsdf{0, 1, 1.0}, RoughConductorBsdf{});
+}
+
+TEST_F(BsdfIdentity, AnswersAreFinite) {
+  std::vector<MaterialCase> cases = all_materials();
+  for (const MaterialCase& c : rough_materials()) cases.push_back(c);
+  std::vector<BsdfKind> kinds;
+  for (const MaterialCase& c : cases) kinds.push_back(c.kind);
+  BsdfProbe probe(scene_of_bsdfs(kinds));
+  for (size_t i = 0; i < cases.size(); ++i) {
+    for (const BsdfAnswer& a : probe.ask(queries_for(static_cast<int>(i), 4096))) {
+      for (int k = 0; k < 3; ++k) {
+        ASSERT_TRUE(std::isfinite(a.weight[k]) && a.weight[k] >= 0) << cases[i].name;
+        ASSERT_TRUE(std::isfinite(a.f[k]) && a.f[k] >= 0) << cases[i].name;
+      }
+      ASSERT_TRUE(std::isfinite(a.pdf) && a.pdf >= 0 && std::isfinite(a.f_pdf) && a.f_pdf >= 0) << cases[i].name;
+    }
+  }
+}
+
+// A white furnace: sampled weights, with the scaling of radiance undone, do not exceed 1 on average.
+TEST_F(BsdfIdentity, NoMaterialCreatesLight) {
+  std::vector<MaterialCase> cases = all_materials();
+  std::vector<BsdfKind> kinds;
+  for (const MaterialCase& c : cases) kinds.push_back(c.kind);
+  BsdfProbe probe(scene_of_bsdfs(kinds));
+  for (size_t i = 0; i < cases.size(); ++i) {
+    if (!cases[i].conserves) continue;
+    for (const double degrees : {0.0, 45.0, 80.0}) {
+      auto queries = queries_for(static_cast<int>(i), 16384);
+      const double theta = degrees * 3.14159265 / 180;
+      for (BsdfQuery& q : queries) q.wo = glm::vec3(std::sin(theta), 0, std::cos(theta));
+      double sum = 0, square = 0;
+      for (const BsdfAnswer& a : probe.ask(queries)) {
+        const double w = double(std::max({a.weight.x, a.weight.y, a.weight.z})) * a.eta * a.eta;
+        sum += w;
+        square += w * w;
+        if (cases[i].name == "dielectric") {
+          ASSERT_NEAR(w, 1, 1e-6);
+        }
+      }
+      const double n = 16384, mean = sum / n, error = std::sqrt(std::max(0.0, square / n - mean * mean) / n);
+      EXPECT_LE(mean, 1 + 4 * error + 1e-5) << cases[i].name << " at " << degrees;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tachylite::test
