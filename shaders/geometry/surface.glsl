@@ -132,7 +132,7 @@ Interaction curved_interaction(uint row, uint kind, vec4 w0, vec4 w1, vec4 w2, v
     n = vec3(0.0, 0.0, 1.0);
     vec2 radial = r > 0.0 ? q.xy / r : vec2(1.0, 0.0);
     du = vec3(radial, 0.0);
-    dv = vec3(-radial.y, radial.x, 0.0) * (two_pi * r);
+    dv = vec3(-radial.y, radial.x, 0.0);  // of unit length, as Mitsuba has it
   } else {
     q.xy *= inversesqrt(max(dot(q.xy, q.xy), 1e-30));
     float phi = has_vertex_uv ? xatan2(q.y, q.x) : 0.0;

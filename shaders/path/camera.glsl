@@ -11,25 +11,34 @@ struct CameraRay {
   float tmax;   // to the far clip plane
 };
 
+// Integral of the reconstruction filter from -infinity to x, and its inverse; the filter has radius 1 (tent) or is a
+// normal distribution (gaussian; Mitsuba's also subtracts its value at the radius, 3e-4 of the peak: left out).
+float filter_cdf(float x) {
+  if (filter_kind == kFilterGaussian) return 0.5 + 0.5 * xerf(x * 0.70710678);
+  return x < 0.0 ? 0.5 * sqr(1.0 + x) : 1.0 - 0.5 * sqr(1.0 - x);
+}
+float inverse_filter_cdf(float u) {
+  if (filter_kind == kFilterGaussian) return 1.41421356 * xerfinv(2.0 * u - 1.0);
+  float v = 2.0 * u - 1.0;
+  return v < 0.0 ? sqrt(1.0 + v) - 1.0 : 1.0 - sqrt(1.0 - v);
+}
+
 // Offset from the pixel's centre, distributed as the reconstruction filter (Ernst, Stamminger and Greiner 2006,
-// "Filter Importance Sampling"): every sample then counts for its own pixel alone, with weight 1.
-float filter_offset(float u) {
-  if (filter_kind == kFilterTent) {
-    // Inverse of the CDF of a tent of radius r.
-    float v = 2.0 * u - 1.0;
-    return params.filter_radius * (v < 0.0 ? sqrt(1.0 + v) - 1.0 : 1.0 - sqrt(1.0 - v));
-  }
-  if (filter_kind == kFilterGaussian) {
-    // Truncated at the radius; Mitsuba's filter also subtracts its value there (3e-4 of the peak), which is left out.
-    float cut = xerf(params.filter_radius / (1.41421356 * params.filter_stddev));
-    return 1.41421356 * params.filter_stddev * xerfinv((2.0 * u - 1.0) * cut);
-  }
-  return (2.0 * u - 1.0) * params.filter_radius;
+// "Filter Importance Sampling"): every sample then counts for its own pixel alone, with weight 1. below, above:
+// distances from the centre to the borders of the image, beyond which there are no samples.
+float filter_offset(float u, float below, float above) {
+  if (filter_kind == kFilterBox) return (2.0 * u - 1.0) * params.filter_radius;
+  float unit = filter_kind == kFilterGaussian ? params.filter_stddev : params.filter_radius;
+  float lo = filter_cdf(-min(below, params.filter_radius) / unit);
+  float hi = filter_cdf(min(above, params.filter_radius) / unit);
+  return unit * inverse_filter_cdf(mix(lo, hi, u));
 }
 
 // u: position in the filter.
 CameraRay sample_camera_ray(uvec2 pixel, vec2 u, PathSampler path_sampler) {
-  vec2 film = vec2(pixel + uvec2(params.crop_x, params.crop_y)) + 0.5 + vec2(filter_offset(u.x), filter_offset(u.y));
+  vec2 below = vec2(pixel) + 0.5, above = vec2(params.width, params.height) - below;
+  vec2 offset = vec2(filter_offset(u.x, below.x, above.x), filter_offset(u.y, below.y, above.y));
+  vec2 film = below + vec2(params.crop_x, params.crop_y) + offset;
   CameraParams camera = params.camera;
   vec2 plane = film * camera.scale_offset.xy + camera.scale_offset.zw;  // right, up
 
