@@ -70,6 +70,7 @@ vec3 framed_radiance(uint light, uint kind, vec3 intensity, vec3 local, float d2
 // Radiance of the area light at `light` from one of its points towards -wi. row0..row5: of the light.
 vec3 sampled_radiance(vec3 le, uint kind, uint flags, uint texture_row, vec4 row5, LightPoint point, vec3 wi) {
   vec3 n = point.n;
+  float shading = 1.0;
   TexturePoint where = TexturePoint(point.st, floatBitsToUint(row5.x), point.st);
   uint corners = floatBitsToUint(row5.z);
   bool flat_shape = is_light(kind, kLightTriangles) || is_light(kind, kLightRectangle);
@@ -77,15 +78,18 @@ vec3 sampled_radiance(vec3 le, uint kind, uint flags, uint texture_row, vec4 row
     vec4 a = load_light(corners), b = load_light(corners + 1u);
     where.uv = a.xy + point.st.x * (a.zw - a.xy) + point.st.y * (b.xy - a.xy);
   }
-  if (has_light(kLightsSmooth) && flat_shape && (flags & kLightSmooth) != 0u)
-    n = (1.0 - point.st.x - point.st.y) * load_light(corners + 2u).xyz + point.st.x * load_light(corners + 3u).xyz +
-        point.st.y * load_light(corners + 4u).xyz;
+  if (has_light(kLightsSmooth) && flat_shape && (flags & kLightSmooth) != 0u) {
+    n = normalize((1.0 - point.st.x - point.st.y) * load_light(corners + 2u).xyz +
+                  point.st.x * load_light(corners + 3u).xyz + point.st.y * load_light(corners + 4u).xyz);
+    // Mitsuba converts area to solid angle by the shading normal here, and its images are the standard.
+    shading = abs(dot(n, wi)) / max(abs(dot(point.n, wi)), 1e-6);
+  }
   if (has_light_textures && is_light(kind, kLightDisk)) {
     float phi = xatan2(point.st.y, point.st.x) * kInvTwoPi;
     where.uv = vec2(length(point.st), phi < 0.0 ? phi + 1.0 : phi);
   }
   if (has_light_textures && texture_row != kNoTexture) le = texture_color(texture_row, where);
-  return dot(n, wi) < 0.0 ? le : vec3(0.0);
+  return dot(n, wi) < 0.0 ? shading * le : vec3(0.0);
 }
 
 // n: shading normal at p, on the side that light may come from; zero where it may come from all sides: in media, on

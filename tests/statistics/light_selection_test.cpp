@@ -184,7 +184,7 @@ TEST_F(LightSelection, AllKindsTogether) {
 
 TEST_F(LightSelection, SmoothMeshesShineByTheirVertexNormals) {
   // An octahedron with the normals of a sphere: by quadrature over its faces, where the interpolated normal looks at
-  // the point.
+  // the point; that normal also converts area to solid angle, as in Mitsuba.
   auto mesh = std::make_shared<Mesh>();
   mesh->positions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   mesh->normals = mesh->positions;
@@ -208,7 +208,8 @@ TEST_F(LightSelection, SmoothMeshesShineByTheirVertexNormals) {
           const dvec3 x = v0 + b1 * e1 + b2 * e2, to = x - p;
           const double d2 = glm::dot(to, to);
           if (glm::dot(x, to) >= 0) continue;  // the interpolated normal is x itself
-          exact += 0.5 * std::abs(glm::dot(area, to)) / (kSteps * kSteps) * std::max(0.0, glm::dot(n, to)) / (d2 * d2);
+          const double projected = glm::length(area) * std::abs(glm::dot(glm::normalize(x), to));
+          exact += 0.5 * projected / (kSteps * kSteps) * std::max(0.0, glm::dot(n, to)) / (d2 * d2);
         }
       }
   }

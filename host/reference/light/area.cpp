@@ -23,7 +23,10 @@ std::optional<LightSample> sample_area_light(const AreaEmitter& emitter, int sha
   const dvec3 radiance = emitted_area(emitter, geometry.scene(), surface, -wi);
   const double pdf = pdf_area_light(geometry, receiver, surface);
   if (!(pdf > 0) || is_black(radiance)) return std::nullopt;
-  return LightSample{wi, radiance / pdf, pdf, false, surface.offset_towards(-wi)};
+  // Mitsuba converts area to solid angle by the shading normal here; the difference shows on smooth emissive meshes
+  // alone, and its images are the standard.
+  const double shading = std::abs(glm::dot(surface.frame.n, wi) / glm::dot(surface.n_g, wi));
+  return LightSample{wi, radiance * (shading / pdf), pdf, false, surface.offset_towards(-wi)};
 }
 
 }  // namespace tachylite::reference
