@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "image/verify.h"
-#include "reference/reference.h"
 #include "support/render_test.h"
 
 namespace tachylite::test {
@@ -111,31 +109,9 @@ class Agreement : public DeviceTest, public ::testing::WithParamInterface<size_t
 
 TEST_P(Agreement, DeviceAndReference) {
   const Feature& feature = features()[GetParam()];
-  const Scene scene = scene_from_elements(feature.elements, feature.files);
-  const PackedScene packed = pack_scene(scene);
-  const auto on_device = [&](uint64_t samples, int round) -> std::optional<Image> {
-    RenderOptions options;
-    options.samples = samples;
-    options.seed = static_cast<uint32_t>(round);
-    Renderer renderer(device(), packed, options);
-    const FilmBuffer film = renderer.render();
-    EXPECT_EQ(renderer.statistics().nonfinite, 0u);
-    EXPECT_EQ(renderer.statistics().overflow, 0u);
-    return film.to_image();
-  };
-  const auto on_reference = [&](uint64_t samples, int round) -> std::optional<Image> {
-    ReferenceOptions options;
-    options.samples = samples;
-    options.seed = 1000 + static_cast<uint32_t>(round);
-    const ReferenceImage image = render_reference(scene, options);
-    EXPECT_EQ(image.nonfinite, 0u);
-    return to_image(image);
-  };
   VerifyOptions options;
   options.most_samples = 8192;
-  const Verification result = verify(on_device, on_reference, options);
-  EXPECT_EQ(result.verdict, Verification::Verdict::kAgree)
-      << result.samples << " samples\n" << describe(result.comparison);
+  expect_agreement(scene_from_elements(feature.elements, feature.files), options);
 }
 
 INSTANTIATE_TEST_SUITE_P(Features, Agreement, ::testing::Range(size_t{0}, features().size()),

@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "image/verify.h"
-#include "reference/reference.h"
 #include "support/render_test.h"
 
 namespace tachylite::test {
@@ -98,31 +96,12 @@ class MediumAgreement : public DeviceTest, public ::testing::WithParamInterface<
 TEST_P(MediumAgreement, DeviceAndReference) {
   Scene scene = scene_from_elements(scenes()[GetParam()].elements);
   if (scenes()[GetParam()].grid) replace_by_grids(scene);
-  const PackedScene packed = pack_scene(scene);
-  EXPECT_NE(packed.features.media, 0u);
-  const auto on_device = [&](uint64_t samples, int round) -> std::optional<Image> {
-    RenderOptions options;
-    options.samples = samples;
-    options.seed = static_cast<uint32_t>(round);
-    Renderer renderer(device(), packed, options);
-    const FilmBuffer film = renderer.render();
-    EXPECT_EQ(renderer.statistics().nonfinite, 0u);
-    EXPECT_EQ(renderer.statistics().overflow, 0u);
-    return film.to_image();
-  };
-  const auto on_reference = [&](uint64_t samples, int round) -> std::optional<Image> {
-    ReferenceOptions options;
-    options.samples = samples;
-    options.seed = 1000 + static_cast<uint32_t>(round);
-    return to_image(render_reference(scene, options));
-  };
+  EXPECT_NE(pack_scene(scene).features.media, 0u);
   VerifyOptions options;
   options.mean_bias = 0.02;
   options.block_bias = 0.15;
   options.most_samples = 16384;
-  const Verification result = verify(on_device, on_reference, options);
-  EXPECT_EQ(result.verdict, Verification::Verdict::kAgree)
-      << result.samples << " samples\n" << describe(result.comparison);
+  expect_agreement(scene, options);
 }
 
 INSTANTIATE_TEST_SUITE_P(Media, MediumAgreement, ::testing::Range(size_t{0}, scenes().size()),

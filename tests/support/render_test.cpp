@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "reference/reference.h"
 #include "scene/load_xml.h"
 
 namespace tachylite::test {
@@ -69,6 +70,31 @@ DeviceRender render_on_device(const Scene& scene, const RenderOptions& options) 
   Renderer renderer(device(), packed, options);
   FilmBuffer film = renderer.render();
   return {std::move(film), renderer.statistics(), renderer.stages_run(), renderer.stages_skipped()};
+}
+
+void expect_agreement(const Scene& scene, const VerifyOptions& options) {
+  const PackedScene packed = pack_scene(scene);
+  const auto on_device = [&](uint64_t samples, int round) -> std::optional<Image> {
+    RenderOptions render;
+    render.samples = samples;
+    render.seed = static_cast<uint32_t>(round);
+    Renderer renderer(device(), packed, render);
+    const FilmBuffer film = renderer.render();
+    EXPECT_EQ(renderer.statistics().nonfinite, 0u);
+    EXPECT_EQ(renderer.statistics().overflow, 0u);
+    return film.to_image();
+  };
+  const auto on_reference = [&](uint64_t samples, int round) -> std::optional<Image> {
+    ReferenceOptions render;
+    render.samples = samples;
+    render.seed = 1000 + static_cast<uint32_t>(round);
+    const ReferenceImage image = render_reference(scene, render);
+    EXPECT_EQ(image.nonfinite, 0u);
+    return to_image(image);
+  };
+  const Verification result = verify(on_device, on_reference, options);
+  EXPECT_EQ(result.verdict, Verification::Verdict::kAgree)
+      << result.samples << " samples\n" << describe(result.comparison);
 }
 
 }  // namespace tachylite::test

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "image/verify.h"
 #include "pack/pack_scene.h"
 #include "scene/scene.h"
 #include "support/device_test.h"
@@ -30,5 +31,9 @@ struct DeviceRender {
   std::vector<std::string> stages_run, stages_skipped;
 };
 DeviceRender render_on_device(const Scene& scene, const RenderOptions& options);
+
+/// Expects that device and CPU reference agree on the scene (image/verify.h): a test of level 1e-4 with the power that
+/// `options` ask for. Nothing may be dropped as not finite or for lack of room.
+void expect_agreement(const Scene& scene, const VerifyOptions& options);
 
 }  // namespace tachylite::test
