@@ -38,6 +38,18 @@ void read_depths(const Plugin& plugin, Integrator& integrator) {
   integrator.rr_depth = plugin.integer("rr_depth", 5, 1);
 }
 
+/// `sampling`, ours: which strategies find the light. The number of samples of Mitsuba's `direct` says the same.
+void read_strategy(const Plugin& plugin, Integrator& integrator) {
+  if (!plugin.has("sampling")) return;
+  for (const char* other : {"shading_samples", "emitter_samples", "bsdf_samples"})
+    if (plugin.has(other))
+      throw InputError(plugin.where("sampling"), fmt::format("direct has sampling as well as {}", other));
+  const std::string word = plugin.word("sampling", "mis", {"mis", "emitter", "bsdf"});
+  integrator.strategy = word == "emitter" ? Integrator::Strategy::kEmitterOnly
+                        : word == "bsdf"  ? Integrator::Strategy::kBsdfOnly
+                                          : Integrator::Strategy::kMis;
+}
+
 void read_direct(const Plugin& plugin, Integrator& integrator) {
   integrator.max_depth = 2;
   const int shading = plugin.integer("shading_samples", 1, 0);
@@ -80,6 +92,7 @@ void load_integrator(SceneLoader& loader, const XmlNode& node) {
     integrator.kind = Integrator::Kind::kPath;
     return;
   }
+  if (type != "moment" && type != "aov") read_strategy(plugin, integrator);
   integrator.hide_emitters = plugin.boolean("hide_emitters", integrator.hide_emitters);
   if (node.legacy && plugin.boolean("strict_normals", false))
     loader.refuse(plugin.where("strict_normals"), "strictNormals is not supported");

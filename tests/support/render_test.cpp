@@ -73,11 +73,17 @@ DeviceRender render_on_device(const Scene& scene, const RenderOptions& options) 
 }
 
 void expect_agreement(const Scene& scene, const VerifyOptions& options) {
+  expect_agreement(scene, scene, options);
+}
+
+void expect_agreement(const Scene& scene, const Scene& judged_by, const VerifyOptions& options,
+                      KernelStructure structure) {
   const PackedScene packed = pack_scene(scene);
   const auto on_device = [&](uint64_t samples, int round) -> std::optional<Image> {
     RenderOptions render;
     render.samples = samples;
     render.seed = static_cast<uint32_t>(round);
+    render.structure = structure;
     Renderer renderer(device(), packed, render);
     const FilmBuffer film = renderer.render();
     EXPECT_EQ(renderer.statistics().nonfinite, 0u);
@@ -88,7 +94,7 @@ void expect_agreement(const Scene& scene, const VerifyOptions& options) {
     ReferenceOptions render;
     render.samples = samples;
     render.seed = 1000 + static_cast<uint32_t>(round);
-    const ReferenceImage image = render_reference(scene, render);
+    const ReferenceImage image = render_reference(judged_by, render);
     EXPECT_EQ(image.nonfinite, 0u);
     return to_image(image);
   };

@@ -35,5 +35,8 @@ DeviceRender render_on_device(const Scene& scene, const RenderOptions& options);
 /// Expects that device and CPU reference agree on the scene (image/verify.h): a test of level 1e-4 with the power that
 /// `options` ask for. Nothing may be dropped as not finite or for lack of room.
 void expect_agreement(const Scene& scene, const VerifyOptions& options);
+/// The same of two scenes that must look alike, one for the device (in kernels of that structure) and one for the judge.
+void expect_agreement(const Scene& scene, const Scene& judged_by, const VerifyOptions& options,
+                      KernelStructure structure = KernelStructure::kAuto);
 
 }  // namespace tachylite::test

@@ -191,6 +191,11 @@ TEST_F(BadInput, Parameters) {
        "at least -1"},
       {"<integrator type=\"path\"><integer name=\"max_depth\" value=\"3.5\"/></integrator>", "scene.xml:3",
        "whole number"},
+      {"<integrator type=\"path\"><string name=\"sampling\" value=\"light\"/></integrator>", "scene.xml:3",
+       "mis, emitter, bsdf"},
+      {"<integrator type=\"direct\"><integer name=\"bsdf_samples\" value=\"0\"/>\n"
+       "<string name=\"sampling\" value=\"mis\"/></integrator>",
+       "scene.xml:4", "sampling as well as bsdf_samples"},
       {"<integrator type=\"aov\"><string name=\"aovs\" value=\"x:taste\"/></integrator>", "scene.xml:3",
        "taste"},
       {"<medium type=\"homogeneous\"><rgb name=\"sigma_t\" value=\"3\"/></medium>", "scene.xml:3", "[0, 1]"},

@@ -1,5 +1,7 @@
 #include "load_support.h"
 
+#include <fmt/format.h>
+
 #include "scene/parse_transform.h"
 
 namespace tachylite {
@@ -182,6 +184,16 @@ TEST_F(LoadScene, Integrators) {
   const Integrator direct =
       integrator("<integrator type=\"direct\"><integer name=\"bsdf_samples\" value=\"0\"/></integrator>");
   EXPECT_EQ(direct.strategy, Integrator::Strategy::kEmitterOnly);
+  for (const char* type : {"direct", "path", "volpath", "volpathmis"}) {
+    const auto sampling = [&](const char* word) {
+      return integrator(fmt::format(
+                            "<integrator type=\"{}\"><string name=\"sampling\" value=\"{}\"/></integrator>", type, word))
+          .strategy;
+    };
+    EXPECT_EQ(sampling("mis"), Integrator::Strategy::kMis);
+    EXPECT_EQ(sampling("emitter"), Integrator::Strategy::kEmitterOnly);
+    EXPECT_EQ(sampling("bsdf"), Integrator::Strategy::kBsdfOnly);
+  }
 }
 
 TEST_F(LoadScene, Emitters) {
