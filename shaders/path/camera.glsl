@@ -56,9 +56,9 @@ CameraRay sample_camera_ray(uvec2 pixel, vec2 u, PathSampler path_sampler) {
       local = vec3(local.xy * camera.focus_distance - lens, camera.focus_distance);
       ray.o += lens.x * camera.right.xyz + lens.y * camera.up.xyz;
     }
-    local = normalize(local);
-    ray.d = normalize(local.x * camera.right.xyz + local.y * camera.up.xyz + local.z * camera.forward.xyz);
-    per_depth = 1.0 / local.z;
+    float depth = length(local);
+    ray.d = (local.x * camera.right.xyz + local.y * camera.up.xyz + local.z * camera.forward.xyz) * (1.0 / depth);
+    per_depth = depth / local.z;
   }
   ray.o += ray.d * (camera.near_clip * per_depth);
   ray.tmax = (camera.far_clip - camera.near_clip) * per_depth;
