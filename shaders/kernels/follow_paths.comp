@@ -6,6 +6,7 @@ layout(local_size_x = 64) in;
 #ifndef BAKED_COUNT
 #define BAKED_COUNT 24
 #endif
+#define LIGHT_IN_REGISTERS
 #include "base/queues.glsl"
 #include "geometry/baked.glsl"
 #include "geometry/load.glsl"
@@ -31,7 +32,7 @@ Interaction baked_interaction(uint primitive, BakedRay ray, float t, out uint hi
   } else {
     it.n_g = plane.xyz;
     it.p -= it.n_g * (dot(it.n_g, it.p) + plane.w);
-    it.p_error = kGamma7 * (abs(it.p) + abs(plane.w * it.n_g));
+    it.p_error = kGammaPlane * (abs(it.p) + abs(plane.w * it.n_g));
   }
   it.n_s = it.n_g;
   it.dp_du = it.dp_dv = vec3(0.0);
@@ -44,6 +45,7 @@ Interaction baked_interaction(uint primitive, BakedRay ray, float t, out uint hi
 }
 
 void main() {
+  hoist_light();
   uint i = gl_GlobalInvocationID.x;
   uvec2 pixel = uvec2(0u);
   bool going = i < wave.pixel_count && pixel_of(wave.first_pixel + i, pixel);

@@ -39,7 +39,7 @@ bool has_framed_lights() { return (light_kinds & (1u << kLightSpot | 1u << kLigh
 uint light_of_hit(Interaction it) {
   uint light = it.light;
   if (has_light(kLightTriangles) || has_light(kLightRectangle)) {
-    uint word = floatBitsToUint(load_light(light).w), first = floatBitsToUint(load_light(light + 5u).x);
+    uint word = floatBitsToUint(load_found_light(light, 0u).w), first = floatBitsToUint(load_found_light(light, 5u).x);
     uint offset = (it.point.primitive - first) >> ((word & kLightPairs) != 0u ? 1u : 0u);
     if ((word & kLightKindMask) <= kLightRectangle) light += kLightRows * offset;
   }
@@ -104,13 +104,13 @@ LightSample sample_light(vec3 p, vec3 n, vec2 u, float u_select, out float selec
     light = choose_light(Receiver(p, unpack_normal(packed_normal)), u_select, u, probability);
   }
 
-  vec4 row0 = load_light(light);
+  vec4 row0 = load_found_light(light, 0u);
   uint kind = floatBitsToUint(row0.w) & kLightKindMask, flags = floatBitsToUint(row0.w);
   LightSample s = LightSample(vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0, false, kTargetInfinite);
 
   if (has_area_lights()) {
-    vec4 row1 = load_light(light + 1u), row2 = load_light(light + 2u), row3 = load_light(light + 3u);
-    vec4 row4 = load_light(light + 4u), row5 = load_light(light + 5u);
+    vec4 row1 = load_found_light(light, 1u), row2 = load_found_light(light, 2u), row3 = load_found_light(light, 3u);
+    vec4 row4 = load_found_light(light, 4u), row5 = load_found_light(light, 5u);
     vec3 v0 = row1.xyz - p;
     uint hit = floatBitsToUint(row1.w);
     LightPoint point = kNoLightPoint;
@@ -187,8 +187,8 @@ Receiver receiver(vec3 p, float selection_key) { return Receiver(p, unpack_norma
 // light of `it` after t, at hit_id.
 float pdf_light_hit(vec3 p, float selection_key, Interaction it, uint hit_id, vec3 d, float t) {
   uint light = light_of_hit(it);
-  vec4 row0 = load_light(light), row1 = load_light(light + 1u), row2 = load_light(light + 2u);
-  vec4 row3 = load_light(light + 3u), row4 = load_light(light + 4u), row5 = load_light(light + 5u);
+  vec4 row0 = load_found_light(light, 0u), row1 = load_found_light(light, 1u), row2 = load_found_light(light, 2u);
+  vec4 row3 = load_found_light(light, 3u), row4 = load_found_light(light, 4u), row5 = load_found_light(light, 5u);
   uint kind = floatBitsToUint(row0.w) & kLightKindMask;
   vec3 v0 = row1.xyz - p, to = t * d;
   float pdf = 0.0;
@@ -218,9 +218,9 @@ float pdf_light_escaped(vec3 p, float selection_key, vec3 d) {
 // Le of the light that was hit, towards wo (unit, away from the light): on the side of its shading normal.
 vec3 emitted_radiance(Interaction it, vec3 wo) {
   uint light = light_of_hit(it);
-  vec3 le = load_light(light).xyz;
+  vec3 le = load_found_light(light, 0u).xyz;
   if (has_light_textures) {
-    uint texture_row = floatBitsToUint(load_light(light + 2u).w);
+    uint texture_row = floatBitsToUint(load_found_light(light, 2u).w);
     if (texture_row != kNoTexture) le = texture_color(texture_row, it.point);
   }
   return dot(it.n_s, wo) > 0.0 ? le : vec3(0.0);

@@ -10,6 +10,21 @@ layout(set = 0, binding = kBindLights) uniform samplerBuffer lights;
 layout(set = 0, binding = kBindLightTable) uniform usamplerBuffer light_table;
 
 vec4 load_light(uint row) { return texelFetch(lights, int(row)); }
+
+// Rows of a light that was chosen or hit. A kernel that looks at them often defines LIGHT_IN_REGISTERS and calls
+// hoist_light once: where there is only one such light, at row 0, it is not loaded again.
+#ifdef LIGHT_IN_REGISTERS
+vec4 only_light[kLightRows];
+void hoist_light() {
+  if (light_selection != kSelectSingle) return;
+  for (uint row = 0u; row < kLightRows; ++row) only_light[row] = load_light(row);
+}
+vec4 load_found_light(uint light, uint row) {
+  return light_selection == kSelectSingle ? only_light[row] : load_light(light + row);
+}
+#else
+vec4 load_found_light(uint light, uint row) { return load_light(light + row); }
+#endif
 uvec4 load_light_table(uint row) { return texelFetch(light_table, int(row)); }
 uvec4 load_light_table_header() { return load_light_table(0u); }
 
