@@ -111,7 +111,7 @@ class Baker {
     if (out_.count >= gpu::kMaxBaked) return false;
     const dvec3 normal = glm::cross(e1, e2), centre = v0 + 0.5 * (e1 + e2);
     const dvec3 a = glm::cross(e2, normal), b = glm::cross(normal, e1);  // dual to e1 and e2
-    constant(0, kind);
+    constant(0, kind | emits(shape(primitive)));
     const double sign_n = direction(1, normal, centre);
     const double sign_a = direction(5, a, centre), sign_b = direction(9, b, centre);
     const auto half = [&](const dvec3& dual, const dvec3& edge, double sign) {
@@ -140,16 +140,17 @@ class Baker {
     const glm::vec4* rows = &scene_.curved[info.x];
     const vec3 centre(rows[0].w, rows[1].w, rows[2].w);
     const float radius = rows[3].z;
-    constant(0, gpu::kBakedSphere);
     for (uint32_t axis = 0; axis < 3; ++axis) constant(1 + axis, double{centre[static_cast<int>(axis)]});
     constant(4, double{radius});
     constant(15, 2 * leaf);
     const glm::uvec4& s = scene_.shapes[std::bit_cast<uint32_t>(rows[3].x)];
+    constant(0, gpu::kBakedSphere | emits(s));
     const bool flip = (s.z & gpu::kShapeFlipNormals) != 0;
     put_rows(glm::vec4(centre, flip ? -radius : radius), gpu::kNoIndex, s, 2 * leaf);
     return true;
   }
 
+  static uint32_t emits(const glm::uvec4& shape) { return shape.y != gpu::kNoIndex ? gpu::kBakedEmits : 0; }
   const glm::uvec4& shape(uint32_t triangle) const { return scene_.shapes[scene_.triangles[triangle].w]; }
 
   void put_rows(const glm::vec4& row, uint32_t primitive, const glm::uvec4& s, uint32_t hit) {

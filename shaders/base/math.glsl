@@ -41,14 +41,6 @@ float copy_sign(float magnitude, float sign_of) {
   return floatBitsToInt(sign_of) < 0 ? -abs(magnitude) : abs(magnitude);
 }
 
-/// The neighbouring float towards +infinity (up) or -infinity (down); infinities stay.
-float next_float_up(float x) {
-  const uint bits = x == 0.0 ? 0u : floatBitsToUint(x);  // -0 counts as +0
-  const uint next = (bits & 0x80000000u) == 0u ? bits + 1u : bits - 1u;
-  return x == infinity() ? x : uintBitsToFloat(next);
-}
-float next_float_down(float x) { return -next_float_up(-x); }
-
 /// a * b as an unevaluated sum x + y, exact without a fused multiply-add (Dekker 1971, "A floating-point technique
 /// for extending the available precision", sec. 5) while |a|, |b| < 2^114 and the product does not underflow.
 vec2 two_product(float a, float b) {

@@ -43,6 +43,10 @@
 
 BAKED_ALL(BAKED_DECLARE)
 
+// Bound of the error of a point on a plane, relative to its terms, and of the side of the plane on which hit_baked sees
+// the origin of a ray that offset_origin moved off it: no ray meets the plane that it leaves.
+const float kGammaPlane = 12.0 * 5.9604645e-8;
+
 struct BakedRay {
   vec3 o, d;
   uint ignored, ignored_target;  // hits that the ray leaves and that it aims at (kNoHit: none)
@@ -53,9 +57,14 @@ bool same_baked(uint kind, uint id, uint hit) {
   return kind == kBakedTriangle ? id == hit : (id | 1u) == (hit | 1u) && hit != 0xffffffffu;
 }
 
+// Of a NaN in `b` it gives NaN; max() has another rule, and costs two more instructions for it.
+float larger(float a, float b) { return a > b ? a : b; }
+
 // Smallest t in (0, tmax) at which the ray meets the primitive; tmax if it does not.
-float hit_baked(BakedRay ray, float tmax, uint id, uint kind, vec3 N, float wN, vec3 A, float wA, vec3 B, float wB,
-                float h, float k) {
+float hit_baked(BakedRay ray, float tmax, uint id, uint kind_and_flag, vec3 N, float wN, vec3 A, float wA, vec3 B,
+                float wB, float h, float k) {
+  uint kind = kind_and_flag & kBakedKindMask;
+  bool is_target = (kind_and_flag & kBakedEmits) != 0u && same_baked(kind, id, ray.ignored_target);
   if (kind == kBakedSphere) {
     // Haines et al. 2019, "Precision Improvements for Ray/Sphere Intersection"; d is any length.
     float radius = wN;
@@ -70,16 +79,18 @@ float hit_baked(BakedRay ray, float tmax, uint id, uint kind, vec3 N, float wN, 
     bool leaves = same_baked(kind, id, ray.ignored);
     float lo = min(t0, t1), hi = max(t0, t1);
     lo = leaves ? (b > 0.0 ? hi : 0.0) : (lo > 0.0 ? lo : hi);
-    bool hit = discriminant >= 0.0 && lo > 0.0 && lo < tmax && !same_baked(kind, id, ray.ignored_target);
+    bool hit = discriminant >= 0.0 && lo > 0.0 && lo < tmax && !is_target;
     return hit ? lo : tmax;
   }
   float t = -(dot(N, ray.o) + wN) * (1.0 / dot(N, ray.d));
   float s = (dot(A, ray.o) + wA) + t * dot(A, ray.d);
   float r = (dot(B, ray.o) + wB) + t * dot(B, ray.d);
-  bool hit = abs(s) <= abs(h) && abs(r) <= abs(k) && t > 0.0 && t < tmax && !same_baked(kind, id, ray.ignored) &&
-             !same_baked(kind, id, ray.ignored_target);
-  if (kind == kBakedTriangle) hit = hit && s * (1.0 / h) + r * (1.0 / k) <= 1e-6;
-  return hit ? t : tmax;
+  // All conditions in one number, negative inside: masks are dear where registers have none for them. A ray in the
+  // plane has t infinite or NaN, and so is outside.
+  float outside = larger(abs(s) - abs(h), abs(r) - abs(k));
+  if (kind == kBakedTriangle) outside = larger(s * (1.0 / h) + r * (1.0 / k) - 1e-6, outside);
+  outside = larger(outside, larger(-t, t - tmax));
+  return outside < 0.0 && !is_target ? t : tmax;
 }
 
 #define BAKED_ARGUMENTS(a, b)                                                                                     \
@@ -95,6 +106,7 @@ float hit_baked(BakedRay ray, float tmax, uint id, uint kind, vec3 N, float wN, 
   }
 // The primitive that the ray meets first before `closest`, and where; kNoIndex if none.
 uint closest_baked(BakedRay ray, inout float closest) {
+  ray.ignored_target = 0xffffffffu;
   uint primitive = 0xffffffffu;
   BAKED_ALL(BAKED_CLOSEST)
   return primitive;

@@ -24,11 +24,11 @@ vec4 load_normal(uint vertex) { return texelFetch(normals, int(vertex)); }
 vec4 load_curved(uint row) { return texelFetch(curved, int(row)); }
 uvec4 load_shape(uint row) { return texelFetch(shapes, int(row)); }
 
-// gamma_n = n eps / (1 - n eps): bound of the relative error of n float operations in sequence (Higham 2002).
-const float kGamma7 = 7.0 * 5.9604645e-8 / (1.0 - 7.0 * 5.9604645e-8);
-// p of a curved shape comes from the object-space point by a 3 x 4 transform, and that point from a square root:
-// generous, but still a few units in the last place.
-const float kGammaCurved = 16.0 * 5.9604645e-8;
+// Bounds of the error of p relative to its terms, in units of float rounding (gamma_n = n eps / (1 - n eps) for n
+// operations in sequence, Higham 2002), and two more for the additions of offset_origin: 7 for barycentrics; of a
+// curved shape p comes from the object-space point by a 3 x 4 transform, and that point from a square root.
+const float kGammaTriangle = 9.0 * 5.9604645e-8;
+const float kGammaCurved = 18.0 * 5.9604645e-8;
 
 // s and t from dp_du where the material needs them so; else any.
 void set_shading_frame(inout Interaction it) {
@@ -63,7 +63,7 @@ Interaction triangle_interaction(uint primitive, vec2 b) {
   vec4 v0 = load_position(triangle.x), v1 = load_position(triangle.y), v2 = load_position(triangle.z);
   float b0 = 1.0 - b.x - b.y;
   it.p = b0 * v0.xyz + b.x * v1.xyz + b.y * v2.xyz;
-  it.p_error = kGamma7 * (abs(b0 * v0.xyz) + abs(b.x * v1.xyz) + abs(b.y * v2.xyz));
+  it.p_error = kGammaTriangle * (abs(b0 * v0.xyz) + abs(b.x * v1.xyz) + abs(b.y * v2.xyz));
   vec3 e1 = v1.xyz - v0.xyz, e2 = v2.xyz - v0.xyz;
   vec3 n = triangle_normal(e1, e2);
   it.n_g = flip ? -n : n;
@@ -181,11 +181,7 @@ vec3 offset_origin(Interaction it, vec3 wo, vec3 w) {
   bool front = dot(w, it.n_g) >= 0.0;
   vec3 offset = front ? distance * it.n_g : -distance * it.n_g;
   if ((dot(wo, it.n_g) >= 0.0) == front) offset += distance * wo;
-  vec3 o = it.p + offset;
-  o.x = offset.x > 0.0 ? next_float_up(o.x) : (offset.x < 0.0 ? next_float_down(o.x) : o.x);
-  o.y = offset.y > 0.0 ? next_float_up(o.y) : (offset.y < 0.0 ? next_float_down(o.y) : o.y);
-  o.z = offset.z > 0.0 ? next_float_up(o.z) : (offset.z < 0.0 ? next_float_down(o.z) : o.z);
-  return o;
+  return it.p + offset;
 }
 
 #endif

@@ -2,7 +2,7 @@
 // tree. Written by host/pack/bake_geometry, read by geometry/baked.glsl.
 //
 // Primitive i has kBakedConstants constants from id kBakedFirstConstant + i * kBakedConstants on:
-//   0: kind kBaked...
+//   0: kind kBaked..., flag kBakedEmits
 //   parallelogram, triangle: 1..4: N, wN; 5..8: A, wA; 9..12: B, wB; 13: h; 14: k
 //     A point p of the plane dot(N, p) + wN = 0 has s = dot(A, p) + wA and t = dot(B, p) + wB and lies in the
 //     parallelogram where |s| <= |h| and |t| <= |k|; in the triangle if also s / h + t / k <= 0. N, A, B are unit; one
@@ -22,6 +22,8 @@ TACHYLITE_CONST uint kBakedNone = 0u;
 TACHYLITE_CONST uint kBakedParallelogram = 1u;
 TACHYLITE_CONST uint kBakedTriangle = 2u;
 TACHYLITE_CONST uint kBakedSphere = 3u;
+TACHYLITE_CONST uint kBakedKindMask = 3u;
+TACHYLITE_CONST uint kBakedEmits = 4u;  // flag of a kind: a light that shadow rays may aim at
 
 TACHYLITE_CONST uint kBakedFirstConstant = 64u;
 TACHYLITE_CONST uint kBakedConstants = 16u;

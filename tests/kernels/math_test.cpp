@@ -30,8 +30,6 @@ enum Function : uint32_t {
   kErfinv,
   kCosTurns,
   kSinTurns,
-  kNextUp,
-  kNextDown,
   kDifferenceOfSquares,
   kClass,
   kSafeSqrt
@@ -203,18 +201,6 @@ TEST_F(Math, CosSinTurns) {
     const float turns = 0.25f * static_cast<float>(quarter);
     EXPECT_EQ(evaluate(kCosTurns, turns), std::round(std::cos(kPi / 2 * quarter))) << turns;
     EXPECT_EQ(evaluate(kSinTurns, turns), std::round(std::sin(kPi / 2 * quarter))) << turns;
-  }
-}
-
-TEST_F(Math, NextFloat) {
-  std::vector<Point> inputs = points(-3e38, 3e38, 0, 1e-45);
-  for (float x : {0.0f, -0.0f, 1.0f, -1.0f, 1e-45f, -1e-45f, kInf, 3.402823466e+38f}) inputs.push_back({x});
-  const std::vector<float> up = evaluate(kNextUp, inputs), down = evaluate(kNextDown, inputs);
-  for (size_t i = 0; i < inputs.size(); ++i) {
-    ASSERT_EQ(up[i], std::nextafterf(inputs[i].x, kInf)) << inputs[i].x;
-    if (inputs[i].x < kInf) {
-      ASSERT_EQ(down[i], std::nextafterf(inputs[i].x, -kInf)) << inputs[i].x;
-    }
   }
 }
 
