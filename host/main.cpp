@@ -8,12 +8,14 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/parallel.h"
+#include "command_bench.h"
 #include "command_compare.h"
 #include "command_devices.h"
 #include "command_info.h"
 #include "command_interrupt.h"
 #include "command_reference.h"
 #include "command_verify.h"
+#include "measure/scaling.h"
 #include "shared/render_params.h"
 
 namespace tachylite {
@@ -120,6 +122,51 @@ void add_render_options(CLI::App& command, RenderArguments& arguments, int& thre
   add_quiet_option(command, arguments.quiet);
 }
 
+void add_bench_options(CLI::App& command, BenchArguments& arguments, int& threads) {
+  const auto samples = CLI::Range(int64_t{1}, int64_t{1} << 20);
+  command.add_option("scenes", arguments.scenes, "Mitsuba 3 scenes")->type_name("SCENE.xml");
+  command.add_option("-D", arguments.scene.defines, "value of the scenes' $name")
+      ->type_name("name=value")
+      ->allow_extra_args(false);
+  command.add_flag("--permissive", arguments.scene.permissive, "unknown plugins and parameters are warnings only");
+  command.add_option("-o,--output", arguments.outputs, "report, .json or .html; may be given several times")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command.add_option("--spp", arguments.measure.most_samples, "most samples a pixel")->type_name("N")->check(samples);
+  command.add_option("--min-spp", arguments.measure.least_samples, "least samples a pixel; doubled from there")
+      ->type_name("N")
+      ->check(samples);
+  command.add_option("--seeds", arguments.measure.seeds, "images of each number of samples")
+      ->type_name("N")
+      ->check(CLI::Range(2, 1000));
+  command.add_option("--seed", arguments.measure.first_seed, "the first of the seeds")
+      ->type_name("N")
+      ->check(CLI::Range(0u, 1u << 31));
+  command.add_option("--reference", arguments.reference, "what errors are against; else SCENE.reference.exr, or pairs")
+      ->type_name("FILE.exr");
+  command.add_option("--external", arguments.externals, "a further renderer")
+      ->type_name("'name=NAME;spp=MOST;command=...'")
+      ->allow_extra_args(false);
+  command.add_option("--against", arguments.against, "an earlier report, for ratios")->type_name("BASELINE.json");
+  command.add_option("--scaling", arguments.scaling, "cost as work grows: " + fmt::format("{}", fmt::join(scaling_names(), ",")))
+      ->type_name("LIST")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(scaling_names()).description(""));
+  command.add_option("--scaling-seconds", arguments.scaling_seconds, "a point that takes longer is its series' last")
+      ->type_name("SECONDS")
+      ->check(within(1e-3, 1e9));
+  command.add_option("--clock", arguments.clock, "cpu (seconds over cores) or wall; auto: cpu where the device is one")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"auto", "cpu", "wall"}).description(""));
+  add_device_option(command, arguments.device);
+  add_sampler_option(command, arguments.sampler);
+  add_paths_option(command, arguments.max_paths);
+  add_threads_option(command, threads);
+  command.add_flag("--json", arguments.json, "the report on stdout as JSON");
+  add_quiet_option(command, arguments.quiet);
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Tachylite: a Vulkan compute path tracer for Mitsuba 3 scenes", "tachylite");
   app.set_version_flag("--version", "tachylite " TACHYLITE_VERSION);
@@ -165,6 +212,10 @@ int run(int argc, char** argv) {
   samples->needs(variance);
   compare_command.add_flag("--json", compare.json, "figures as JSON");
 
+  BenchArguments bench;
+  CLI::App& bench_command = *app.add_subcommand("bench", "error against time");
+  add_bench_options(bench_command, bench, threads);
+
   InfoArguments info;
   CLI::App& info_command = *app.add_subcommand("info", "what a scene holds and needs; renders nothing");
   add_scene_options(info_command, info.scene);
@@ -180,13 +231,14 @@ int run(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : kExitBadInput;
   }
 
-  set_log_quiet(render.quiet || reference.quiet || verify.quiet);
+  set_log_quiet(render.quiet || reference.quiet || verify.quiet || bench.quiet);
   set_thread_count(threads);
   install_interrupt_handler();
   if (render_command) return run_render(render);
   if (reference_command) return run_reference(reference);
   if (verify_command) return run_verify(verify);
   if (compare_command) return run_compare(compare);
+  if (bench_command) return run_bench(bench);
   if (info_command) return run_info(info);
   if (devices_command) return run_devices();
   return kExitBadInput;

@@ -94,7 +94,7 @@ float srgb_to_linear(float encoded) {
   return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
-void write_png(const std::filesystem::path& file, const Image& image) {
+std::vector<uint8_t> encode_png(const Image& image) {
   const std::vector<float>* rgb[3] = {image.find("R"), image.find("G"), image.find("B")};
   CHECK(rgb[0] && rgb[1] && rgb[2]);
   const size_t count = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
@@ -105,14 +105,24 @@ void write_png(const std::filesystem::path& file, const Image& image) {
       const float clamped = value > 0 ? std::min(value, 1.0f) : 0.0f;  // NaN becomes 0
       bytes[3 * i + c] = static_cast<uint8_t>(std::lround(255 * linear_to_srgb(clamped)));
     }
+  std::vector<uint8_t> png;
+  const auto append = [](void* context, void* data, int size) {
+    const auto* first = static_cast<const uint8_t*>(data);
+    auto& all = *static_cast<std::vector<uint8_t>*>(context);
+    all.insert(all.end(), first, first + size);
+  };
+  if (!stbi_write_png_to_func(append, &png, image.width, image.height, 3, bytes.data(), 0))
+    throw RenderError("the image could not be encoded as PNG");
+  return png;
+}
+
+void write_png(const std::filesystem::path& file, const Image& image) {
+  const std::vector<uint8_t> png = encode_png(image);
   write_atomically(file, [&](const std::filesystem::path& beside) {
     std::ofstream stream(beside, std::ios::binary);
-    const auto append = [](void* context, void* data, int size) {
-      static_cast<std::ofstream*>(context)->write(static_cast<const char*>(data), size);
-    };
-    const int done = stbi_write_png_to_func(append, &stream, image.width, image.height, 3, bytes.data(), 0);
+    stream.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
     stream.close();
-    if (!done || !stream) throw RenderError(fmt::format("cannot write {}", file.string()));
+    if (!stream) throw RenderError(fmt::format("cannot write {}", file.string()));
   });
 }
 

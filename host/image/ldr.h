@@ -7,6 +7,8 @@
 
 namespace tachylite {
 
+/// The channels R G B as 8-bit sRGB PNG of the image clamped to [0, 1]. Throws RenderError.
+std::vector<uint8_t> encode_png(const Image& image);
 /// Writes the channels R G B as 8-bit sRGB PNG of the image clamped to [0, 1]; whole or not at all.
 void write_png(const std::filesystem::path& file, const Image& image);
 
