@@ -138,7 +138,7 @@ void add_bench_options(CLI::App& command, BenchArguments& arguments, int& thread
       ->check(samples);
   command.add_option("--seeds", arguments.measure.seeds, "images of each number of samples")
       ->type_name("N")
-      ->check(CLI::Range(2, 1000));
+      ->check(CLI::Range(3, 1000));
   command.add_option("--seed", arguments.measure.first_seed, "the first of the seeds")
       ->type_name("N")
       ->check(CLI::Range(0u, 1u << 31));

@@ -18,9 +18,9 @@ double mean(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Bias of the bootstrap's spread with n data: it divides squares by n where n - 1 is right.
-double spread_correction(size_t n) {
-  return std::sqrt(static_cast<double>(n) / static_cast<double>(n - 1));
+/// The bootstrap's spread of n data divides squares by n, where n less what was fitted to them is right.
+double spread_correction(size_t n, size_t fitted) {
+  return std::sqrt(static_cast<double>(n) / static_cast<double>(n - fitted));
 }
 
 }  // namespace
@@ -34,7 +34,7 @@ Replicates bootstrap_mean(std::span<const double> measurements, uint64_t seed) {
     return result;
   }
   const double t975 = quantile(boost::math::students_t(static_cast<double>(n - 1)), 0.975);
-  const double widening = spread_correction(n) * t975 / kNormal975;
+  const double widening = spread_correction(n, 1) * t975 / kNormal975;
   std::mt19937_64 random(seed);
   std::uniform_int_distribution<size_t> draw(0, n - 1);
   for (double& drawn : result.drawn) {
@@ -46,8 +46,8 @@ Replicates bootstrap_mean(std::span<const double> measurements, uint64_t seed) {
   return result;
 }
 
-Replicates bootstrap_blocks(std::span<const std::vector<double>> errors, uint64_t seed) {
-  CHECK(!errors.empty());
+Replicates bootstrap_blocks(std::span<const std::vector<double>> errors, size_t fitted, uint64_t seed) {
+  CHECK_LT(fitted, errors.size());
   const size_t seeds = errors.size(), blocks = errors[0].size();
   Replicates result{0, std::vector<double>(kReplicates, 0.0)};
   std::mt19937_64 random(seed);
@@ -63,7 +63,7 @@ Replicates bootstrap_blocks(std::span<const std::vector<double>> errors, uint64_
       drawn += sum / static_cast<double>(seeds) - centre;
     }
   }
-  const double widening = seeds > 1 ? spread_correction(seeds) : 0;
+  const double widening = spread_correction(seeds, fitted);
   for (double& drawn : result.drawn) drawn = result.value + widening * drawn;
   return result;
 }

@@ -30,7 +30,10 @@ Replicates bootstrap_mean(std::span<const double> measurements, uint64_t seed);
 
 /// The sum over blocks of the mean over seeds of errors[seed][block]. Blocks of an image are independent of each
 /// other, as their random numbers are: each draws its own seeds, so that a few seeds give many degrees of freedom.
-Replicates bootstrap_blocks(std::span<const std::vector<double>> errors, uint64_t seed);
+/// `fitted`: how much of the n seeds of a block its own mean takes, 1 for errors that are independent of each other, 2
+/// for deviations from the mean of the seeds (whose mean has a variance 1 / (n - 1), not (1 - 1 / (n - 1)^2) / n, of one
+/// normal deviation's); the spread is widened by sqrt(n / (n - fitted)). n > fitted.
+Replicates bootstrap_blocks(std::span<const std::vector<double>> errors, size_t fitted, uint64_t seed);
 
 /// f of each draw of the two.
 Replicates combine(const Replicates& a, const Replicates& b, const std::function<double(double, double)>& f);

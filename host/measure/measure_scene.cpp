@@ -36,7 +36,7 @@ uint64_t draw_seed(const std::string& name, uint64_t samples, int which) {
   return std::hash<std::string>{}(name) ^ (samples * 4 + static_cast<uint64_t>(which));
 }
 
-void add_level(Track& track, uint64_t samples, const std::vector<std::vector<double>>& errors,
+void add_level(Track& track, uint64_t samples, const std::vector<std::vector<double>>& errors, size_t fitted,
                std::span<const Seconds> render, std::span<const Seconds> total, const MeasureOptions& options) {
   const auto clocked = [&](std::span<const Seconds> all) {
     std::vector<double> seconds;
@@ -50,7 +50,7 @@ void add_level(Track& track, uint64_t samples, const std::vector<std::vector<dou
     return Seconds{sum.cpu / n, sum.wall / n};
   };
   const std::string& name = track.contestant->name;
-  LevelDraws draws{bootstrap_blocks(errors, draw_seed(name, samples, 0)),
+  LevelDraws draws{bootstrap_blocks(errors, fitted, draw_seed(name, samples, 0)),
                    bootstrap_mean(clocked(render), draw_seed(name, samples, 1))};
   LevelMeasurement level;
   level.samples = samples;
@@ -170,8 +170,8 @@ void measure_scene(SceneMeasurement& result, std::span<const Contestant> contest
       Track& track = tracks[t];
       if (track.measurement.levels.empty()) track.measurement.mean = mean_color(mean_of(images[t]));
       add_level(track, *level,
-                reference ? errors_against(images[t], *reference, *scale) : deviations(images[t], *scale), render[t],
-                total[t], options);
+                reference ? errors_against(images[t], *reference, *scale) : deviations(images[t], *scale), reference ? 1 : 2,
+                render[t], total[t], options);
       track.first_images.push_back(images[t][0]);
       if (*level == pictured)
         track.error_map = reference ? error_map(images[t], scale->image(), *scale, false)

@@ -72,7 +72,8 @@ ScalingPoint Bench::measure(double x, const std::filesystem::path& file) const {
     point.values[kDevice] = static_cast<double>(renderer.statistics().device_bytes) / kMebibyte;
   }
   double rel_mse = 0;
-  for (double block : deviations(images, ErrorScale(mean_of(images)))[0]) rel_mse += block;
+  const std::vector<std::vector<double>> errors = deviations(images, ErrorScale(mean_of(images)));
+  for (double block : errors[0]) rel_mse += block;  // both have the same
   point.values[kError] = rel_mse;
   return point;
 }

@@ -39,7 +39,7 @@ class CliBench : public ProgramTest {
 };
 
 TEST_F(CliBench, MeasuresItselfAndAnother) {
-  const std::vector<std::string> run = {kBox, "-D", "size=24", "--min-spp", "4", "--spp", "16", "--seeds", "3"};
+  const std::vector<std::string> run = {kBox, "-D", "size=24", "--min-spp", "8", "--spp", "16", "--seeds", "3"};
   std::vector<std::string> arguments = run;
   arguments.insert(arguments.end(), {"--external", kItself, "--json", "-o", "b.json", "-o", "b.html"});
   const ProgramResult result = bench(arguments);
@@ -51,7 +51,7 @@ TEST_F(CliBench, MeasuresItselfAndAnother) {
   EXPECT_EQ(scene.at("name"), "cornell-box");
   EXPECT_EQ(scene.at("error"), "seed pairs");
   for (const Json& renderer : scene.at("renderers")) {
-    ASSERT_EQ(renderer.at("levels").size(), 3u);
+    ASSERT_EQ(renderer.at("levels").size(), 2u);
     double before = 1e9;
     for (const Json& level : renderer.at("levels")) {
       const Json& error = level.at("relmse");
@@ -61,7 +61,7 @@ TEST_F(CliBench, MeasuresItselfAndAnother) {
       before = error.at("value");
       EXPECT_NEAR(level.at("efficiency").at("value").get<double>() * before * level.at("seconds").at("value").get<double>(),
                   1, 1e-9);
-      EXPECT_GT(level.at("total_seconds").at("value"), level.at("seconds").at("value"));
+      EXPECT_GE(level.at("total_seconds").at("value"), level.at("seconds").at("value"));
     }
     EXPECT_EQ(renderer.at("times").size(), 3u);
     EXPECT_TRUE(renderer.at("times")[2].at("extrapolated"));
@@ -90,7 +90,7 @@ TEST_F(CliBench, MeasuresItselfAndAnother) {
 
 TEST_F(CliBench, PageWorksInABrowser) {
   if (std::system("command -v chromium >/dev/null") != 0) GTEST_SKIP() << "chromium is not installed";
-  ASSERT_EQ(bench({kBox, "-D", "size=16", "--spp", "8", "--seeds", "2", "-o", "b.html"}).exit_code, 0);
+  ASSERT_EQ(bench({kBox, "-D", "size=16", "--spp", "8", "--seeds", "3", "-o", "b.html"}).exit_code, 0);
   ProgramOptions options;
   options.folder = folder;
   const ProgramResult browser = run_program(
@@ -102,7 +102,6 @@ TEST_F(CliBench, PageWorksInABrowser) {
 }
 
 TEST_F(CliBench, ErrorsAgainstAReference) {
-  const std::vector<std::string> size = {"-D", "size=24"};
   ProgramOptions options;
   options.folder = folder;
   ASSERT_EQ(run_program(TACHYLITE_PROGRAM, {"render", kBox, "-D", "size=24", "--spp", "4096", "--seed", "77", "-o", "r.exr",
@@ -139,7 +138,7 @@ TEST_F(CliBench, WrongUseIsRefused) {
   expect_refused({kBox, "word.xml"}, "word.xml:3:");
   expect_refused({kBox, "--spp", "0"}, "--spp");
   expect_refused({kBox, "--min-spp", "64", "--spp", "32"}, "--min-spp");
-  expect_refused({kBox, "--seeds", "1"}, "--seeds");
+  expect_refused({kBox, "--seeds", "2"}, "--seeds");
   expect_refused({kBox, "-o", "report.txt"}, "report.txt");
   expect_refused({kBox, "-o", "nowhere/report.json"}, "nowhere");
   expect_refused({kBox, "--against", "absent.json"}, "absent.json");
@@ -150,12 +149,12 @@ TEST_F(CliBench, WrongUseIsRefused) {
   expect_refused({kBox, "--scaling", "weight"}, "weight");
   expect_refused({kBox, "--scaling", "depth", "--scaling-seconds", "nan"}, "--scaling-seconds");
   expect_refused({kBox, "--clock", "sun"}, "--clock");
-  expect_refused({kBox, "-D", "size=16", "--spp", "4", "--seeds", "2", "--clock", "cpu", "--against", "other.json"}, "clock");
+  expect_refused({kBox, "-D", "size=16", "--spp", "4", "--seeds", "3", "--clock", "cpu", "--against", "other.json"}, "clock");
 }
 
 TEST_F(CliBench, OthersThatFailAreNamed) {
   const auto with = [this](const std::string& command) {
-    return bench({kBox, "-D", "size=16", "--spp", "4", "--seeds", "2", "--external", "name=other;command=" + command});
+    return bench({kBox, "-D", "size=16", "--spp", "4", "--seeds", "3", "--external", "name=other;command=" + command});
   };
   for (const auto& [command, reason] : std::vector<std::pair<std::string, std::string>>{
            {"echo no licence >&2; exit 3 # {samples} {seed} {out}", "other: ended with exit code 3: no licence"},

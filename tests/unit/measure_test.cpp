@@ -106,7 +106,7 @@ TEST(Measure, IntervalsOfErrorsCoverTheVariance) {
         for (size_t s = 0; s < seeds; ++s) errors[s][b] += (x[s] - mean) * (x[s] - mean) * seeds / (seeds - 1);
       }
     }
-    const Estimate interval = estimate(bootstrap_blocks(errors, e));
+    const Estimate interval = estimate(bootstrap_blocks(errors, 2, e));
     return interval.low <= truth && truth <= interval.high;
   });
   EXPECT_GT(covered, 0.91);
