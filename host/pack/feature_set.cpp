@@ -44,6 +44,7 @@ std::vector<Named> named_features(const FeatureSet& f) {
           {(f.media & gpu::kMediaGrids) != 0, "media on grids"},
           {(f.media & gpu::kMediaChromatic) != 0, "coloured extinction"},
           {(f.media & gpu::kMediaBlended) != 0, "blended phase functions"},
+          {(f.media & gpu::kMediaSegments) != 0, "point lights along segments"},
           {f.shadow_null, "shadow rays through surfaces"},
           {f.aovs != 0, "auxiliary channels"}};
 }

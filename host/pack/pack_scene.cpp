@@ -66,6 +66,14 @@ void set_media_features(const Scene& scene, const Sensor& sensor, const PackedMe
   features.camera_medium = media.index(sensor.medium);
 }
 
+// Whether light is sampled along segments: in homogeneous media, from lights without extent that a loop can choose among.
+bool samples_segments(const FeatureSet& features) {
+  const bool points = features.has_light(gpu::kLightPoint) || features.has_light(gpu::kLightSpot) ||
+                      features.has_light(gpu::kLightProjector);
+  return points && (features.media & gpu::kMediaHomogeneous) && features.strategy != gpu::kStrategyBsdf &&
+         (features.selection == gpu::kSelectSingle || features.selection == gpu::kSelectLoop);
+}
+
 // leaf_info names class and emission, so that intersect_closest sorts paths with one load.
 void mark_leaves(const Geometry& geometry, const std::vector<uint32_t>& class_of_shape,
                  const std::vector<bool>& shape_emits, PackedScene& out) {
@@ -191,6 +199,7 @@ PackedScene pack_scene(const Scene& scene, int sensor_index) {
   features.camera = static_cast<uint32_t>(sensor.kind);
   features.filter = static_cast<uint32_t>(sensor.film.filter);
   set_path_features(scene, features);
+  if (samples_segments(features)) features.media |= gpu::kMediaSegments;
   out.aovs = scene_aovs(scene);
   out.params.class_count = static_cast<uint32_t>(features.classes.size());
   out.params.light_count = lights.count;

@@ -9,6 +9,7 @@
 #include "shared/aov.h"
 #include "shared/baked.h"
 #include "shared/material.h"
+#include "shared/medium.h"
 
 namespace tachylite {
 namespace {
@@ -93,6 +94,8 @@ Kernels build_kernels(vulkan::Device& device, const vulkan::BindingTable& table,
     kernels.intersect_shadow = make_if(shadow, "intersect_shadow");
   kernels.sample_medium = make_if(media, "sample_medium");
   kernels.shade_medium = make_if(media && features.max_depth > 1, "shade_medium");
+  const bool segments = media && (features.media & gpu::kMediaSegments) && features.max_depth > 1;
+  kernels.shade_segment = make_if(segments, "shade_segment");
   kernels.write_film = make("write_film", "write_film", common);
   const uint32_t moment = 1u << gpu::kAovMoment;
   if (features.aovs & ~moment) kernels.write_aov = make("write_aov", "write_aov", with_sampler(features.union_constants()));

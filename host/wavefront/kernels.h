@@ -15,7 +15,7 @@ namespace tachylite {
 struct Kernels {
   using Pointer = std::unique_ptr<vulkan::Kernel>;
   Pointer init_from_camera, prepare_dispatch, intersect_primary, intersect_closest, intersect_shadow, shade_escaped,
-      shade_emitter, sample_medium, shade_medium, write_film, write_aov, write_moment, follow_paths;
+      shade_emitter, sample_medium, shade_medium, shade_segment, write_film, write_aov, write_moment, follow_paths;
   std::vector<Pointer> shade_surface;  // one a material class; null for classes that need no shading
 
   std::vector<std::string> run, skipped;  // stages, for people

@@ -153,6 +153,7 @@ void Renderer::Impl::warm_up() {
   touch(kernels.intersect_closest);
   touch(kernels.intersect_shadow);
   touch(kernels.sample_medium);
+  touch(kernels.shade_segment);
   touch(kernels.shade_medium);
   touch(kernels.shade_emitter);
   touch(kernels.shade_escaped);
@@ -192,6 +193,11 @@ void Renderer::Impl::record_bounce(WaveParams& wave) {
   };
   queue_dispatch(wave.bounce == 0 ? kernels.intersect_primary : kernels.intersect_closest, gpu::kDispatchClosest);
   if (wave.bounce == 0) dispatch_pixels(kernels.write_aov, wave);
+  if (kernels.shade_segment) {
+    queue_dispatch(kernels.shade_segment, gpu::kDispatchQueue + wave.ray_queue);
+    prepare(gpu::kPrepareShadow);
+    queue_dispatch(kernels.intersect_shadow, gpu::kDispatchShadow);
+  }
   queue_dispatch(kernels.sample_medium, gpu::kDispatchQueue + wave.ray_queue);
   prepare(gpu::kPrepareShade);
   queue_dispatch(kernels.shade_escaped, gpu::kDispatchQueue + gpu::kQueueEscaped);

@@ -20,4 +20,4 @@ void store_hit(uint i, TraceHit hit) {
 
 #include "geometry/trace_rays.glsl"
 
-void main() { trace_rays(counters[kCounterShadow], true); }
+void main() { trace_rays(counters[kCounterShadowRays], true); }

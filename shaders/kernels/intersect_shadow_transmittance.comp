@@ -12,7 +12,7 @@ layout(local_size_x = 64) in;
 
 void main() {
   uint i = gl_GlobalInvocationID.x;
-  if (i >= counters[kCounterShadow]) return;
+  if (i >= counters[kCounterShadowRays]) return;
   vec4 o = load_shadow(0u, i), d = load_shadow(1u, i), c = load_shadow(2u, i);
   uint target = floatBitsToUint(d.w), slot = floatBitsToUint(c.w);
   uint medium = floatBitsToUint(load_shadow(3u, i).x);
@@ -24,7 +24,7 @@ void main() {
   pixel_of(slot_tile_pixel(slot), pixel);
   PathSampler s = begin_path_sampler(film_pixel(pixel), slot_sample(slot), params.seed);
   WalkRandom random = WalkRandom(s.key, s.index, 2u * wave.bounce + 1u);
-  random.key ^= 0x9e3779b9u;
+  random.key ^= wave.mode == kPrepareShadow ? 0x85ebca6bu : 0x9e3779b9u;
 
   vec3 depth = vec3(0.0), transmittance = vec3(1.0);
   bool overflow = false, going = true;
@@ -54,8 +54,10 @@ void main() {
         random.segment += 0x10000u;
         crossings += 1u;
       }
-      going = met && transmittance != vec3(0.0) && crossings < kMaxCrossings;
-      if (met && !going) {
+      // A light on the surface is reached.
+      bool reached = met && !infinite && !(dot(ray.d, d.xyz) > 0.0);
+      going = met && !reached && transmittance != vec3(0.0) && crossings < kMaxCrossings;
+      if (met && !going && !reached) {
         overflow = overflow || transmittance != vec3(0.0);
         transmittance = vec3(0.0);
       }

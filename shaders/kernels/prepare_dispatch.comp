@@ -17,20 +17,28 @@ void set_groups(uint dispatch, uint lanes, uint lanes_per_group) {
   counters[word + 2u] = 1u;
 }
 
+void prepare_shadow() {
+  uint shadow = counters[kCounterShadow];
+  set_groups(kDispatchShadow, shadow, is_volumetric() ? kWorkgroupSize : kRaysPerGroup);
+  counters[kCounterShadowRays] = shadow;
+  counters[kCounterShadowTotal] += shadow;
+  counters[kCounterShadow] = 0u;
+}
+
 void main() {
-  if (wave.mode == kPrepareTrace) {
+  if (wave.mode == kPrepareShadow) {
+    prepare_shadow();
+  } else if (wave.mode == kPrepareTrace) {
     // Shading (or the camera) has queued rays for wave.bounce and shadow rays.
-    uint rays = counters[kCounterQueue + wave.ray_queue], shadow = counters[kCounterShadow];
+    uint rays = counters[kCounterQueue + wave.ray_queue];
     set_groups(kDispatchClosest, rays, kRaysPerGroup);
-    set_groups(kDispatchShadow, shadow, is_volumetric() ? kWorkgroupSize : kRaysPerGroup);
+    prepare_shadow();
     if (has_media()) set_groups(kDispatchQueue + wave.ray_queue, rays, kWorkgroupSize);
     counters[kCounterClosestTotal] += rays;
-    counters[kCounterShadowTotal] += shadow;
     for (uint q = kQueueEmitter; q < queues_end(); ++q) counters[kCounterQueue + q] = 0u;
   } else {
     for (uint q = kQueueEmitter; q < queues_end(); ++q)
       set_groups(kDispatchQueue + q, counters[kCounterQueue + q], kWorkgroupSize);
     counters[kCounterQueue + (1u - wave.ray_queue)] = 0u;
-    counters[kCounterShadow] = 0u;
   }
 }

@@ -10,6 +10,12 @@ layout(local_size_x = 64) in;
 #include "path/termination.glsl"
 #include "path/volume_path.glsl"
 
+// shade_segment samples lights without extent in homogeneous media.
+bool samples_lights_here() {
+  bool others = has_area_light() || has_escaped_light() || has_light(kLightDirectional) || has_medium(kMediaGrids);
+  return light_selection != kSelectNone && strategy != kStrategyBsdf && (others || !has_medium(kMediaSegments));
+}
+
 void main() {
   uint i = gl_GlobalInvocationID.x;
   bool live = i < queue_length(kQueueSurface + class_count);
@@ -18,6 +24,7 @@ void main() {
   vec3 p = load_path(kPathOrigin, slot).xyz + load_path(kPathHit, slot).w * d;
   vec4 beta = load_path(kPathBeta, slot);
   VolumePath path = load_volume_path(slot);
+  uint row = (live ? path.medium : 0u) * kMediumRows;
   Phase phase = load_phase(live ? path.medium : 0u);
   uvec2 pixel;
   pixel_of(slot_tile_pixel(slot), pixel);
@@ -26,13 +33,14 @@ void main() {
   uint vertex = path.edges - 1u;
 
   float selection_key = 0.0;
-  if (light_selection != kSelectNone && strategy != kStrategyBsdf) {
+  if (samples_lights_here()) {
     vec2 u = light_point_sample(path_sampler, vertex);
     LightSample light = sample_light(p, vec3(0.0), u, choices.x, selection_key);
     float pdf = eval_phase(phase, d, light.wi);
     float weight = light.delta || strategy == kStrategyEmitter ? 1.0 : mis_weight(light.pdf, pdf);
     vec3 contribution = beta.xyz * pdf * light.radiance * (weight / light.pdf);
     bool wanted = live && light.pdf > 0.0 && contribution != vec3(0.0);
+    if (has_medium(kMediaSegments)) wanted = wanted && !(light.target == kTargetPoint && !is_grid(load_medium(row)));
     if (wanted && !is_finite(contribution)) {
       atomicAdd(counters[kCounterNonfinite], 1u);
       wanted = false;

@@ -67,6 +67,29 @@ vec3 framed_radiance(uint light, uint kind, vec3 intensity, vec3 local, float d2
   return value;
 }
 
+bool is_framed_light(uint kind) { return is_light(kind, kLightSpot) || is_light(kind, kLightProjector); }
+
+// Of a point, spot or projector light with record `light` and its row 0.
+vec3 point_light_position(uint light, vec4 row0) {
+  vec4 row1 = load_light(light + 1u);
+  if (!has_framed_lights()) return row1.xyz;
+  vec3 framed = vec3(row1.w, load_light(light + 2u).w, load_light(light + 3u).w);
+  return is_framed_light(floatBitsToUint(row0.w) & kLightKindMask) ? framed : row1.xyz;
+}
+
+// The irradiance at p of a surface that faces it [W/m^2]; to: from p to the light.
+vec3 point_light_irradiance(uint light, vec4 row0, vec3 p, out vec3 to) {
+  uint kind = floatBitsToUint(row0.w) & kLightKindMask;
+  bool framed = is_framed_light(kind);
+  PointFrame frame = PointFrame(load_light(light + 1u).xyz, vec3(0.0), vec3(0.0), vec3(0.0));
+  if (framed) frame = load_point_frame(light);
+  to = frame.position - p;
+  float d2 = dot(to, to);
+  vec3 value = row0.xyz / d2;
+  if (framed) value = framed_radiance(light, kind, row0.xyz, to_point_frame(frame, -to), d2);
+  return value;
+}
+
 // Radiance of the area light at `light` from one of its points towards -wi. row0..row5: of the light.
 vec3 sampled_radiance(vec3 le, uint kind, uint flags, uint texture_row, vec4 row5, LightPoint point, vec3 wi) {
   vec3 n = point.n;
@@ -139,14 +162,10 @@ LightSample sample_light(vec3 p, vec3 n, vec2 u, float u_select, out float selec
     }
   }
   if (has_light(kLightPoint) || has_framed_lights()) {
-    bool framed = is_light(kind, kLightSpot) || is_light(kind, kLightProjector);
-    PointFrame frame = PointFrame(load_light(light + 1u).xyz, vec3(0.0), vec3(0.0), vec3(0.0));
-    if (framed) frame = load_point_frame(light);
-    vec3 to = frame.position - p;
+    vec3 to;
+    vec3 value = point_light_irradiance(light, row0, p, to);
     float d2 = dot(to, to);
-    vec3 value = row0.xyz / d2;
-    if (framed) value = framed_radiance(light, kind, row0.xyz, to_point_frame(frame, -to), d2);
-    if (framed || is_light(kind, kLightPoint)) {
+    if (is_framed_light(kind) || is_light(kind, kLightPoint)) {
       s.wi = to * inversesqrt(d2);
       s.to_light = to;
       s.radiance = value;

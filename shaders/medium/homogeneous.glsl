@@ -19,7 +19,7 @@ FreeFlight fly_homogeneous(vec3 sigma_t, vec3 albedo, float tmax, vec3 beta, uve
   vec3 p = vec3(1.0, 0.0, 0.0);
   bool chromatic = has_medium(kMediaChromatic) && (sigma_t.y != sigma_t.x || sigma_t.z != sigma_t.x);
   if (has_medium(kMediaChromatic)) {
-    p = beta / (beta.x + beta.y + beta.z);
+    p = has_medium(kMediaUniformChannel) ? vec3(1.0 / 3.0) : beta / (beta.x + beta.y + beta.z);
     float u_channel = unit_float(u.y);
     sigma = u_channel < p.x ? sigma_t.x : (u_channel < p.x + p.y || p.z == 0.0 ? sigma_t.y : sigma_t.z);
   }

@@ -5,11 +5,6 @@
 #include "medium/homogeneous.glsl"
 #include "medium/record.glsl"
 
-bool is_grid(vec4 row0) {
-  bool grid = (floatBitsToUint(row0.w) & 0xffu) == kMediumGrid;
-  return has_medium(kMediaGrids) && (!has_medium(kMediaHomogeneous) || grid);
-}
-
 /// Flies along the ray (unit d) up to tmax. u: raw bits (distance, channel).
 FreeFlight fly_medium(uint medium, vec3 o, vec3 d, float tmax, vec3 beta, uvec2 u, WalkRandom random,
                       inout bool overflow) {

@@ -15,6 +15,12 @@ bool is_volumetric() { return media_kinds != 0u; }
 bool has_media() { return (media_kinds & (kMediaHomogeneous | kMediaGrids)) != 0u; }
 bool has_medium(uint kind) { return (media_kinds & kind) != 0u; }
 
+// Whether the medium with that row 0 is a grid.
+bool is_grid(vec4 row0) {
+  bool grid = (floatBitsToUint(row0.w) & 0xffu) == kMediumGrid;
+  return has_medium(kMediaGrids) && (!has_medium(kMediaHomogeneous) || grid);
+}
+
 // The medium on the side of direction d, of a surface whose shape has the words `shape` (row 0, shared/geometry.h) and
 // the geometric normal n_g; `current` where the shape is no boundary.
 uint medium_behind(uvec4 shape, vec3 n_g, vec3 d, uint current) {

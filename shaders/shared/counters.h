@@ -17,11 +17,12 @@ TACHYLITE_CONST uint kMaxQueues = kQueueSurface + kMaxClasses + 1u;
 
 // Words of the counters buffer.
 TACHYLITE_CONST uint kCounterQueue = 0u;                        // length of each queue
-TACHYLITE_CONST uint kCounterShadow = kMaxQueues;               // shadow rays of this bounce
+TACHYLITE_CONST uint kCounterShadow = kMaxQueues;               // shadow rays that stages have queued
 TACHYLITE_CONST uint kCounterClosestTotal = kMaxQueues + 1u;    // rays traced since the host last reset them
 TACHYLITE_CONST uint kCounterShadowTotal = kMaxQueues + 2u;
 TACHYLITE_CONST uint kCounterNonfinite = kMaxQueues + 3u;       // contributions dropped: NaN or infinite
 TACHYLITE_CONST uint kCounterOverflow = kMaxQueues + 4u;        // stacks or queues that were full
+TACHYLITE_CONST uint kCounterShadowRays = kMaxQueues + 5u;      // shadow rays to trace, of those that were queued
 TACHYLITE_CONST uint kCounterArguments = kMaxQueues + 8u;       // (x, y, z) of each dispatch below, 4 words apart
 
 // Indirect dispatches.
@@ -35,6 +36,7 @@ TACHYLITE_CONST uint kWorkgroupSize = 64u;
 // Modes of prepare_dispatch.
 TACHYLITE_CONST uint kPrepareTrace = 0u;   // after rays were queued: sizes intersect_closest and intersect_shadow
 TACHYLITE_CONST uint kPrepareShade = 1u;   // after intersect_closest: sizes the shading stages
+TACHYLITE_CONST uint kPrepareShadow = 2u;  // after shade_segment: sizes intersect_shadow alone
 
 TACHYLITE_SHARED_END
 #endif

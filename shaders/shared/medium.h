@@ -38,6 +38,8 @@ TACHYLITE_CONST uint kMediaHomogeneous = 2u;
 TACHYLITE_CONST uint kMediaGrids = 4u;
 TACHYLITE_CONST uint kMediaChromatic = 8u;    // some homogeneous sigma_t differs between channels
 TACHYLITE_CONST uint kMediaBlended = 16u;     // some phase function has several lobes
+TACHYLITE_CONST uint kMediaSegments = 32u;    // shade_segment samples point, spot and projector lights in homogeneous media
+TACHYLITE_CONST uint kMediaUniformChannel = 64u; // never set for a scene: the yardstick of tests/bench/media
 
 // Surfaces without scattering that one shadow ray can pass.
 TACHYLITE_CONST uint kMaxCrossings = 64u;

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/media.h"
 #include "bench/paths.h"
 #include "bench/rays.h"
 #include "bench/scenes.h"
@@ -37,6 +38,15 @@ void print_paths(const PathsResult& r, bool json) {
                r.embree_mpaths, r.ratio(), r.mean_ratio);
 }
 
+void print_media(const std::vector<MediumGain>& gains, const std::vector<MediumCost>& costs) {
+  for (const MediumGain& g : gains)
+    fmt::print("{:38} relMSE {:9.3g}, yardstick {:9.3g}: {:6.1f} times lower; largest pixel {:.1f} against {:.1f} means, "
+               "CPU time {:.2f}, means {:.4f}\n",
+               g.scene, g.ours, g.yardstick, g.yardstick / g.ours, g.ours_largest, g.yardstick_largest, g.seconds_ratio,
+               g.mean_ratio);
+  for (const MediumCost& c : costs) fmt::print("{:32} {:8.1f} ns a collision\n", c.kernel, c.ns_per_event);
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Benchmarks of Tachylite's kernels");
   app.require_subcommand(1);
@@ -54,6 +64,10 @@ int run(int argc, char** argv) {
   paths->add_option("--repetitions", paths_repetitions, "of each measurement, in turn")->check(CLI::Range(1, 1000));
   paths->add_flag("--json", json);
 
+  CLI::App* media = app.add_subcommand("media", "gain of sampling in media, and the cost of a collision");
+  int replicates = 8;
+  media->add_option("--replicates", replicates, "independent renders of each")->check(CLI::Range(2, 1000));
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -61,6 +75,7 @@ int run(int argc, char** argv) {
   }
   if (rays->parsed()) print_rays(bench_rays(scene, repetitions), json);
   if (paths->parsed()) print_paths(bench_paths(paths_repetitions), json);
+  if (media->parsed()) print_media(bench_medium_gains(replicates), bench_medium_costs());
   return 0;
 }
 
