@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/error.h"
+#include "pack/majorant_grid.h"
 #include "shared/medium.h"
 
 namespace tachylite {
@@ -20,19 +21,6 @@ using glm::vec4;
 
 float bits(uint32_t word) { return std::bit_cast<float>(word); }
 vec4 row(const dvec3& v, uint32_t word = 0) { return vec4(glm::vec3(v), bits(word)); }
-
-/// The unit cube of a grid's own space, in the world.
-dmat4 grid_to_world(const Volume& volume) {
-  if (!volume.use_grid_bbox) return volume.to_world;
-  const dvec3 low = volume.grid->bbox_min, high = volume.grid->bbox_max;
-  return volume.to_world * glm::scale(glm::translate(dmat4(1), low), high - low);
-}
-
-double largest_value(const Volume& volume) {
-  if (!volume.grid) return std::max({volume.constant.x, volume.constant.y, volume.constant.z});
-  const auto& values = volume.grid->values;
-  return values.empty() ? 0.0 : double{*std::max_element(values.begin(), values.end())};
-}
 
 class Packer {
  public:
@@ -63,8 +51,7 @@ class Packer {
     }
     const auto& grid = std::get<HeterogeneousMedium>(medium.kind);
     kinds |= gpu::kMediaGrids;
-    // A little too large, so that no float product of scale and value is above it.
-    rows[0] = row(dvec3(grid.scale * largest_value(grid.sigma_t) * (1 + 1e-6)), gpu::kMediumGrid | count << 8);
+    rows[0] = row(dvec3(0), gpu::kMediumGrid | count << 8);
     dvec3 low(-1e30), high(1e30);
     if (grid.sigma_t.grid) {
       low = dvec3(std::numeric_limits<double>::infinity());
@@ -77,6 +64,7 @@ class Packer {
     }
     rows[2] = vec4(glm::vec3(low), static_cast<float>(grid.scale));
     rows[3] = row(high);
+    put_majorants(grid, glm::vec3(low), glm::vec3(high), rows[1]);
     put_volume(grid.sigma_t, rows + gpu::kMediumSigmaRow);
     put_volume(grid.albedo, rows + gpu::kMediumAlbedoRow);
   }
@@ -139,14 +127,29 @@ class Packer {
                    bits(first_value(volume, channels)), 0);
   }
 
+  void put_majorants(const HeterogeneousMedium& medium, const dvec3& low, const dvec3& high, vec4& row) {
+    const MajorantGrid majorants = bound_volume(medium.sigma_t, low + centre_, high + centre_);
+    check_grids_size(medium.sigma_t, majorants.values.size());
+    row.x = bits(static_cast<uint32_t>(grids.size()));
+    const glm::uvec3 n(majorants.cells);
+    row.y = bits(n.x | n.y << 8 | n.z << 16);
+    // A little too large, so that no float product of scale and value is above it.
+    for (const double value : majorants.values)
+      grids.push_back(static_cast<float>(medium.scale * value * (1 + 1e-6)));
+  }
+
+  void check_grids_size(const Volume& volume, size_t more) const {
+    if (grids.size() + more > static_cast<size_t>(std::numeric_limits<int32_t>::max()))
+      throw InputError(volume.where, "the grids of the scene hold more than 2^31 values");
+  }
+
   /// Where the grid's values begin; each grid is stored once.
   uint32_t first_value(const Volume& volume, uint32_t channels) {
     const Grid& grid = *volume.grid;
     const auto [found, is_new] = first_of_grid_.try_emplace(&grid, grids.size());
     if (!is_new) return static_cast<uint32_t>(found->second);
     const size_t stride = static_cast<size_t>(grid.channels), voxels = grid.values.size() / stride;
-    if (grids.size() + voxels * channels > static_cast<size_t>(std::numeric_limits<int32_t>::max()))
-      throw InputError(volume.where, fmt::format("{}: the grids of the scene hold more than 2^31 values", grid.path));
+    check_grids_size(volume, voxels * channels);
     for (size_t v = 0; v < voxels; ++v)
       for (size_t c = 0; c < channels; ++c) grids.push_back(grid.values[v * stride + c]);
     return static_cast<uint32_t>(found->second);

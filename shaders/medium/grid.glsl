@@ -1,4 +1,4 @@
-// Media whose coefficients are grids: delta and ratio tracking with a majorant of the whole medium.
+// Media whose coefficients are grids: delta and ratio tracking with a majorant for each cell of a coarse grid.
 #ifndef TACHYLITE_MEDIUM_GRID_GLSL
 #define TACHYLITE_MEDIUM_GRID_GLSL
 #include "base/math.glsl"
@@ -67,24 +67,74 @@ vec2 clip_to_box(vec3 low, vec3 high, vec3 o, vec3 d, float tmax) {
   return vec2(max(max_component(enter), 0.0), min(min_component(leave), tmax));
 }
 
+// A walk along a ray through the cells of the majorants.
+struct MajorantWalk {
+  float t, end;        // where it is, and where the medium or the segment ends
+  float per_t;         // length of the ray's direction
+  float majorant;      // of the cell that holds t [1/length]
+  vec3 o, inv;         // the ray in units of cells: origin, 1 / direction
+  vec3 next;           // t of the next boundary of the cell in each axis; infinite beyond the last one
+  ivec3 cell, n;
+  int first;           // where the cells begin in kBindGrids
+};
+
+MajorantWalk begin_walk(uint medium, vec3 o, vec3 d, float tmax) {
+  uint row = medium * kMediumRows;
+  vec4 cells = load_medium(row + 1u), low = load_medium(row + 2u), high = load_medium(row + 3u);
+  uint n = floatBitsToUint(cells.y);
+  vec2 inside = clip_to_box(low.xyz, high.xyz, o, d, tmax);
+  MajorantWalk w;
+  w.t = inside.x;
+  w.end = inside.y;
+  w.per_t = length(d);
+  w.majorant = 0.0;
+  w.n = ivec3(n & 0xffu, (n >> 8u) & 0xffu, (n >> 16u) & 0xffu);
+  w.first = int(floatBitsToUint(cells.x));
+  vec3 per_length = vec3(w.n) / (high.xyz - low.xyz);
+  w.o = (o - low.xyz) * per_length;
+  vec3 along = d * per_length;
+  w.inv = 1.0 / mix(along, vec3(1e-30), lessThan(abs(along), vec3(1e-30)));
+  w.cell = clamp(ivec3(floor(w.o + w.t * along)), ivec3(0), w.n - 1);
+  w.next = (vec3(w.cell) + vec3(greaterThan(w.inv, vec3(0.0))) - w.o) * w.inv;
+  return w;
+}
+
+// Goes on until the majorants add up to the optical depth `depth`: a tentative collision; false at the end of the walk.
+bool walk_to_collision(inout MajorantWalk w, float depth) {
+  bool collides = false, crossing = w.t < w.end;
+  while (crossing) {
+    float leave = clamp(min_component(w.next), w.t, w.end);
+    w.majorant = texelFetch(grids, w.first + (w.cell.z * w.n.y + w.cell.y) * w.n.x + w.cell.x).x;
+    float rate = w.majorant * w.per_t, whole = rate * (leave - w.t);
+    collides = depth < whole;
+    w.t = collides ? min(w.t + depth / rate, leave) : leave;
+    depth -= whole;
+    crossing = !collides && leave < w.end;
+    bvec3 crosses = lessThanEqual(w.next, vec3(collides ? -infinity() : leave));
+    ivec3 cell = w.cell + ivec3(mix(vec3(0.0), sign(w.inv), crosses));
+    w.cell = clamp(cell, ivec3(0), w.n - 1);
+    vec3 next = (vec3(cell) + vec3(greaterThan(w.inv, vec3(0.0))) - w.o) * w.inv;
+    next = mix(next, vec3(infinity()), notEqual(w.cell, cell));
+    w.next = mix(w.next, next, crosses);
+  }
+  return collides;
+}
+
 // A tentative collision is real with the probability sigma_t / majorant, averaged over the channels in proportion to
 // the throughput; both outcomes are weighted by that average (Miller, Georgiev and Jarosz 2019, single-sample balance
 // heuristic over the channels): the sum of the throughput never grows. overflow: tracking was cut short.
 FreeFlight fly_grid(uint medium, vec3 o, vec3 d, float tmax, vec3 beta, WalkRandom random, inout bool overflow) {
   uint row = medium * kMediumRows;
-  vec4 low = load_medium(row + 2u), high = load_medium(row + 3u);
-  float majorant = load_medium(row).x;
-  vec2 inside = clip_to_box(low.xyz, high.xyz, o, d, tmax);
-  FreeFlight flight = FreeFlight(false, inside.x, beta);
-  bool going = inside.x < inside.y && majorant > 0.0;
+  float scale = load_medium(row + 2u).w;
+  MajorantWalk walk = begin_walk(medium, o, d, tmax);
+  FreeFlight flight = FreeFlight(false, tmax, beta);
+  bool going = walk.t < walk.end;
   uint steps = 0u;
   while (going) {
     vec2 u = walk_numbers(random, steps);
-    flight.t -= xlog1p(-u.x) / majorant;
+    bool within = walk_to_collision(walk, -xlog1p(-u.x));
     steps += 1u;
-    bool within = flight.t < inside.y;
-    vec3 p = o + min(flight.t, inside.y) * d;
-    vec3 real = min(low.w * load_volume(row + kMediumSigmaRow, p) / majorant, vec3(1.0));
+    vec3 real = min(scale * load_volume(row + kMediumSigmaRow, o + walk.t * d) / walk.majorant, vec3(1.0));
     float probability = dot(flight.beta, real) / (flight.beta.x + flight.beta.y + flight.beta.z);
     bool collides = within && u.y < probability;
     vec3 factor = collides ? real / probability : (1.0 - real) / (1.0 - probability);
@@ -93,8 +143,10 @@ FreeFlight fly_grid(uint medium, vec3 o, vec3 d, float tmax, vec3 beta, WalkRand
     going = within && !collides && steps < kMaxCollisions;
   }
   overflow = overflow || steps == kMaxCollisions;
-  if (flight.collides) flight.beta *= load_volume(row + kMediumAlbedoRow, o + flight.t * d);
-  if (!flight.collides) flight.t = tmax;
+  if (flight.collides) {
+    flight.beta *= load_volume(row + kMediumAlbedoRow, o + walk.t * d);
+    flight.t = walk.t;
+  }
   return flight;
 }
 
@@ -102,18 +154,15 @@ FreeFlight fly_grid(uint medium, vec3 o, vec3 d, float tmax, vec3 beta, WalkRand
 // 2014, "Residual Ratio Tracking for Estimating Attenuation in Participating Media".
 vec3 transmittance_grid(uint medium, vec3 o, vec3 d, float tmax, WalkRandom random, inout bool overflow) {
   uint row = medium * kMediumRows;
-  vec4 low = load_medium(row + 2u), high = load_medium(row + 3u);
-  float majorant = load_medium(row).x, per_t = majorant * length(d);
-  vec2 inside = clip_to_box(low.xyz, high.xyz, o, d, tmax);
+  float scale = load_medium(row + 2u).w;
+  MajorantWalk walk = begin_walk(medium, o, d, tmax);
   vec3 transmittance = vec3(1.0);
-  float t = inside.x;
-  bool going = inside.x < inside.y && majorant > 0.0;
+  bool going = walk.t < walk.end;
   uint steps = 0u;
   while (going) {
-    t -= xlog1p(-walk_numbers(random, steps).x) / per_t;
+    bool within = walk_to_collision(walk, -xlog1p(-walk_numbers(random, steps).x));
     steps += 1u;
-    bool within = t < inside.y;
-    vec3 real = min(low.w * load_volume(row + kMediumSigmaRow, o + min(t, inside.y) * d) / majorant, vec3(1.0));
+    vec3 real = min(scale * load_volume(row + kMediumSigmaRow, o + walk.t * d) / walk.majorant, vec3(1.0));
     transmittance = within ? transmittance * (1.0 - real) : transmittance;
     going = within && transmittance != vec3(0.0) && steps < kMaxCollisions;
   }

@@ -2,8 +2,10 @@
 //
 // Medium (kBindMedia): kMediumRows rows of vec4 (words by their bits); medium m begins at row m * kMediumRows.
 //   row 0: sigma_t [1/length]; kind (kMedium...) | number of lobes << 8
-//          grid: majorant of sigma_t over all channels, three times
 //   row 1: albedo = sigma_s / sigma_t; row of the first lobe
+//          grid: first float of the majorants in kBindGrids; their number in x | y << 8 | z << 16; unused; row of the lobe
+//          Majorants: the box is divided into that many cells; of each the largest sigma_t of all channels [1/length],
+//          or a little more, x fastest.
 //   grid: row 2, 3: lower and upper corner of the box outside of which there is nothing; w of row 2: scale of sigma_t
 //         row 4..7: volume of sigma_t; row 8..11: volume of albedo
 // Volume: row 0..2: device space to the grid's index space, in which voxel (i, j, k) is centred at i + 1/2 ...;
@@ -43,8 +45,10 @@ TACHYLITE_CONST uint kMediaUniformChannel = 64u; // never set for a scene: the y
 
 // Surfaces without scattering that one shadow ray can pass.
 TACHYLITE_CONST uint kMaxCrossings = 64u;
-// Tentative collisions of one ray in grids: what Mesa 22.3.6 can loop (65535), less what traversal needs.
-TACHYLITE_CONST uint kMaxCollisions = 32768u;
+TACHYLITE_CONST uint kMajorantCells = 16u;    // at most, in each axis
+// Tentative collisions of one ray in grids: half of what Mesa 22.3.6 can loop (65535), because a loop over cells is inside,
+// less what the crossing of cells and traversal need.
+TACHYLITE_CONST uint kMaxCollisions = 28000u;
 
 TACHYLITE_SHARED_END
 #endif

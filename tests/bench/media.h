@@ -14,7 +14,8 @@ struct MediumGain {
   double mean_ratio = 0;                     // of the images' means: 1 but for noise
   double seconds_ratio = 0;                  // CPU seconds, ours to the yardstick's
 };
-/// Point light in thin fog: samples along segments against samples at collisions. Coloured media: channels in
+/// Point light in thin fog: samples along segments against samples at collisions. A sparse grid: majorants of cells against
+/// one of the whole, whose gain is time. Coloured media: channels in
 /// proportion to the throughput against uniform ones, both with the density mixed over the channels.
 std::vector<MediumGain> bench_medium_gains(int replicates);
 
