@@ -60,9 +60,9 @@ const std::vector<MediumScene>& scenes() {
       // The lights stand outside: at a light within the medium the variance of the reference's samples is unbounded.
       {"PointAndSpotInNested", volpath(4) + kSensor + kFloor + kPoint + R"(<emitter type="spot">
 <transform name="to_world"><lookat origin="-2, 2, 1" target="0, 0, 0" up="0, 1, 0"/></transform>
-<rgb name="intensity" value="10, 20, 30"/></emitter>)" + ball(1.2, medium("interior", "0.6, 0.4, 0.2", 1, "")) +
+<rgb name="intensity" value="10, 12, 14"/></emitter>)" + ball(1.2, medium("interior", "0.6, 0.4, 0.2", 1, "")) +
            ball(0.7, medium("interior", kColours, 2, kForward) + medium("exterior", "0.6, 0.4, 0.2", 1, ""),
-                R"(<bsdf type="roughdielectric"><float name="alpha" value="0.3"/></bsdf>)")},
+                R"(<bsdf type="thindielectric"/>)")},
       {"Mask", volpath(5) + kSensor + kFloor + kLamp + kPoint + ball(0.9, medium("interior", kColours, 1, ""),
        R"(<bsdf type="mask"><float name="opacity" value="0.4"/><bsdf type="twosided"><bsdf type="diffuse"/></bsdf></bsdf>)")},
       {"ObjectInside", volpath(8) + kSensor + kFloor + kLamp + ball(1.1, medium("interior", kColours, 0.8, "")) +
