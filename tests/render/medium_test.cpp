@@ -169,6 +169,29 @@ TEST_F(MediumRender, Furnace) {
   }
 }
 
+TEST_F(MediumRender, IndexMatchedBoundaryIsNull) {
+  // In the mean: a dielectric is a material class of its own, which rounds directions.
+  const std::string common = integrator("volpath", 4) + sensor_element(24, 24) + kFloor + kPoint + kSky;
+  const std::string with_null = null_cube(medium("1, 0.5, 0.2", "0.9, 0.8, 0.7", 1));
+  std::string matched = with_null;
+  const std::string null = R"(<bsdf type="null"/>)";
+  matched.replace(matched.find(null), null.size(), R"(<bsdf type="dielectric"><float name="int_ior" value="1.5"/>
+<float name="ext_ior" value="1.5"/></bsdf>)");
+  const Mean a = mean_of(render(common + with_null, 64)), b = mean_of(render(common + matched, 64));
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(a.value[c], b.value[c], 5 * std::hypot(a.deviation[c], b.deviation[c])) << c;
+}
+
+TEST_F(MediumRender, OrderOfSiblingsDoesNotMatter) {
+  const std::string common = integrator("volpath", 6) + sensor_element(24, 24);
+  const std::string ball = R"(<shape type="sphere"><float name="radius" value="0.5"/><bsdf type="null"/>)" +
+                           medium("0.2, 0.5, 1", "0.9, 0.8, 0.7", 4) + medium("1, 0.5, 0.2", "0.9, 0.8, 0.7", 1, "", "exterior") +
+                           "</shape>";
+  const std::string cube = null_cube(medium("1, 0.5, 0.2", "0.9, 0.8, 0.7", 1));
+  EXPECT_EQ(different_pixels(render(common + kFloor + cube + ball + kPoint), render(common + kPoint + ball + cube + kFloor)),
+            0u);
+}
+
 TEST_F(MediumRender, SplitByANullPlane) {
   const std::string common = integrator("volpathmis", 32) + sensor_element(24, 24) + kFloor + kPoint;
   const std::string fog = medium("1, 0.6, 0.3", "0.9, 0.8, 0.7", 1.5);
