@@ -159,6 +159,11 @@ std::string scene_section(const SceneMeasurement& s, const Report& report) {
   return html + "</div></section>\n";
 }
 
+/// What a column's unit measures.
+std::string quantity_of(const std::string& unit) {
+  return unit == "s" ? "seconds" : unit == "MiB" ? "memory [MiB]" : "relMSE";
+}
+
 std::string scaling_section(const ScalingSeries& s) {
   // One plot a unit: seconds, bytes, ...
   std::vector<std::string> units;
@@ -173,7 +178,7 @@ std::string scaling_section(const ScalingSeries& s) {
   for (const std::string& unit : units) {
     Plot plot;
     plot.x_label = s.x_label;
-    plot.y_label = unit;
+    plot.y_label = quantity_of(unit);
     for (const std::string& column : s.columns) {
       if (unit_of(column) != unit) continue;
       PlotSeries series{column.substr(0, column.find(" [")), {}, static_cast<int>(plot.series.size()) % kStyles, false};
@@ -182,7 +187,7 @@ std::string scaling_section(const ScalingSeries& s) {
           series.points.push_back({p.x, value->second, 0, 0, fmt::format("{:g}: {:.4g} {}", p.x, value->second, unit)});
       plot.series.push_back(series);
     }
-    html += card(unit, svg_plot(plot));
+    html += card(plot.y_label, svg_plot(plot));
   }
   std::string head = fmt::format("<th>{}</th>", escape_html(s.x_label)), rows;
   for (const std::string& column : s.columns) head += fmt::format("<th>{}</th>", escape_html(column));

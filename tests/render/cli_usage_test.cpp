@@ -43,7 +43,7 @@ TEST_F(CliUsage, NoOrUnknownCommand) {
 }
 
 TEST_F(CliUsage, HelpAndVersionSucceed) {
-  for (const char* word : {"render", "reference", "verify", "compare", "info", "devices"}) {
+  for (const char* word : {"render", "reference", "verify", "compare", "bench", "info", "devices"}) {
     const ProgramResult help = tachylite({word, "--help"});
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_NE(help.out.find(word), std::string::npos);
