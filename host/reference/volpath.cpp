@@ -27,6 +27,9 @@ MediumIndex medium_behind(const World& world, const SurfacePoint& surface, const
 /// Transmission of a shadow ray through null lobes and media.
 dvec3 shadow_transmission(const World& world, Ray ray, MediumIndex medium, Random& random,
                           World::Counters& counters) {
+  // Steps off crossed surfaces must not carry the end of the ray into the light that it stops short of.
+  const bool infinite = ray.t_max == kInfinity;
+  const dvec3 end = infinite ? dvec3(0) : ray.origin + ray.t_max * ray.direction;
   dvec3 result(1);
   while (!is_black(result)) {
     ++counters.shadow_rays;
@@ -40,8 +43,10 @@ dvec3 shadow_transmission(const World& world, Ray ray, MediumIndex medium, Rando
     result *= null_transmission(world.shape_of(*hit).bsdf, shading_point(world.materials, *hit), wo);
     medium = medium_behind(world, *hit, ray.direction, medium);
     ray.origin = hit->offset_towards(ray.direction);
-    ray.t_max -= hit->t;
-    if (!(ray.t_max > 0)) break;
+    if (infinite) continue;
+    if (glm::dot(end - ray.origin, ray.direction) <= 0) break;
+    ray.direction = end - ray.origin;
+    ray.t_max = 1;
   }
   return result;
 }
