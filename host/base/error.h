@@ -17,8 +17,10 @@ class InputError : public std::runtime_error {
   InputError(const FileLocation& where, const std::string& message) : InputError(where.str() + ": " + message) {}
 
  private:
-  /// What is quoted from a file may hold line ends and escape sequences.
+  /// What is quoted from a file may hold line ends and escape sequences, and have any length.
   static std::string one_line(std::string message) {
+    constexpr size_t kLongest = 8192;
+    if (message.size() > kLongest) message.replace(kLongest, message.npos, "...");
     for (char& c : message)
       if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
     return message;

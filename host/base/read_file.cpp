@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/memory.h"
 
 namespace tachylite {
 
@@ -19,6 +20,7 @@ FileBytes read_file(const std::filesystem::path& file, uint64_t max_bytes) {
   if (failed) throw InputError(where, "cannot be read: " + failed.message());
   if (size > max_bytes)
     throw InputError(where, fmt::format("the file has {} bytes; at most {} are read", size, max_bytes));
+  require_memory(where, "reading the file", size);
   FileBytes bytes{std::make_unique_for_overwrite<char[]>(size), size};
   std::ifstream stream(file, std::ios::binary);
   if (!stream.read(bytes.data.get(), static_cast<std::streamsize>(size)))

@@ -13,6 +13,7 @@
 #include "base/atomic_file.h"
 #include "base/check.h"
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/read_file.h"
 
 namespace tachylite {
@@ -43,7 +44,8 @@ std::pair<size_t, size_t> window_size(const FileLocation& where, const Imath::Bo
 }
 
 /// OpenEXR allocates by what the header says. Let it refuse what no image has, and check before it that the
-/// attributes (name, type, size, value; an empty name ends them) fit into the file.
+/// attributes (name, type, size, value; an empty name ends them, one more the headers of several parts) fit into the
+/// file.
 void check_header(const FileLocation& where, const std::filesystem::path& path) {
   constexpr int kMaxSide = 1 << 17, kMaxTileSide = 1 << 12;
   static const bool limited = [] {
@@ -55,9 +57,14 @@ void check_header(const FileLocation& where, const std::filesystem::path& path) 
 
   std::ifstream file(path, std::ios::binary);
   const uintmax_t file_size = std::filesystem::file_size(path);
-  file.seekg(8);  // magic number and version
+  char version[8]{};  // magic number and version with flags
+  file.read(version, sizeof version);
+  const bool several = (version[5] & 0x10) != 0;
   std::string word;
-  while (std::getline(file, word, '\0') && !word.empty()) {
+  for (bool ended = true; std::getline(file, word, '\0');) {
+    if (word.empty() && (ended || !several)) return;
+    ended = word.empty();
+    if (ended) continue;
     uint8_t size[4]{};
     std::getline(file, word, '\0');
     file.read(reinterpret_cast<char*>(size), sizeof size);
@@ -95,6 +102,8 @@ Image read_part(const FileLocation& where, const std::filesystem::path& path, si
   constexpr uintmax_t kMostPerByte = uintmax_t{1} << 17;
   if (width * height * image.names.size() > kMostPerByte * std::filesystem::file_size(path))
     throw InputError(where, "the EXR file is cut short");
+  require_memory(where, fmt::format("the EXR image of {} x {} pixels", width, height),
+                 2 * sizeof(float) * image.names.size() * width * height);
   Imf::FrameBuffer frame;
   image.channels.resize(image.names.size());
   for (size_t i = 0; i < image.names.size(); ++i) {

@@ -9,6 +9,7 @@
 #include "base/atomic_file.h"
 #include "base/check.h"
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/read_file.h"
 #include "image/stb.h"
 
@@ -51,12 +52,13 @@ struct Source {
 /// What stb_image does not check in a JPEG: that entropy-coded data go on to the end marker (else the rest is
 /// grey), and that a Huffman table has at most 256 codes (else it writes past its own).
 void check_jpeg(const FileLocation& where, std::string_view bytes) {
-  if (!bytes.starts_with("\xff\xd8")) return;
+  const size_t first = bytes.find_first_not_of('\xff');  // fill bytes may stand before a marker
+  if (first == 0 || first == bytes.npos || bytes[first] != '\xd8') return;
   const auto byte = [&](size_t i) -> size_t {
     if (i >= bytes.size()) throw InputError(where, "the image file is cut short");
     return static_cast<unsigned char>(bytes[i]);
   };
-  for (size_t i = 2;;) {
+  for (size_t i = first + 1;;) {
     // Markers are 0xff and a code other than 0xff (padding), 0 (a data byte 0xff) and the restarts inside
     // scans.
     while (byte(i) != 0xff || byte(i + 1) == 0xff || byte(i + 1) == 0 || (byte(i + 1) & 0xf8) == 0xd0) ++i;
@@ -73,6 +75,19 @@ void check_jpeg(const FileLocation& where, std::string_view bytes) {
       }
     i = end;
   }
+}
+
+/// stb_image allocates what the header of a PNG chunk asks for before it reads on.
+void check_png(const FileLocation& where, std::string_view bytes) {
+  if (!bytes.starts_with("\x89PNG\r\n\x1a\n")) return;
+  for (size_t i = 8; i + 12 <= bytes.size();) {
+    uint64_t length = 0;
+    for (size_t k = 0; k < 4; ++k) length = length << 8 | static_cast<unsigned char>(bytes[i + k]);
+    if (bytes.substr(i + 4, 4) == "IEND") return;
+    if (length > bytes.size() - i - 12) break;
+    i += 12 + length;
+  }
+  throw InputError(where, "the image file is cut short");
 }
 
 template <typename T>
@@ -133,6 +148,7 @@ DecodedImage read_ldr(const std::filesystem::path& file, size_t max_pixels) {
 
   // Look at the header before anything is allocated.
   check_jpeg(where, bytes);
+  check_png(where, bytes);
   DecodedImage image;
   Source header{bytes};
   if (!stbi_info_from_callbacks(&Source::kCallbacks, &header, &image.width, &image.height, &image.channels))
@@ -151,6 +167,10 @@ DecodedImage read_ldr(const std::filesystem::path& file, size_t max_pixels) {
   if (static_cast<size_t>(image.width) * static_cast<size_t>(image.height) > most_pixels)
     throw InputError(where, "the image file is cut short");
   const bool wide = !hdr && stbi_is_16_bit_from_callbacks(&Source::kCallbacks, &wide_source);
+  // Decoded, and once more as it is kept.
+  require_memory(where, fmt::format("the image of {} x {} pixels", image.width, image.height),
+                 2 * (hdr ? 4u : wide ? 2u : 1u) * static_cast<uint64_t>(image.channels) *
+                     static_cast<uint64_t>(image.width) * static_cast<uint64_t>(image.height));
   const auto decode = [&](auto* load) {
     return take(load(&Source::kCallbacks, &source, &image.width, &image.height, &image.channels, 0), image);
   };

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 
 namespace tachylite {
@@ -155,6 +156,12 @@ Geometry pack_geometry(const Scene& scene) {
   if (std::max({half.x, half.y, half.z}) > 1e12)
     throw InputError(fmt::format("{}: the scene is {:g} units large; at most 1e12 can be rendered", scene.path,
                                  2 * std::max({half.x, half.y, half.z})));
+
+  // What the arrays below, the tree and its building take at their peak.
+  constexpr uint64_t kBytesOfPrimitive = 200, kBytesOfVertex = 24;
+  require_memory({std::make_shared<const std::string>(scene.path), 0},
+                 fmt::format("a scene of {} primitives", total.triangles + total.curved),
+                 kBytesOfPrimitive * (total.triangles + total.curved) + kBytesOfVertex * total.vertices);
 
   out.vertices.resize(total.vertices);
   if (any_normals) out.normals.assign(total.vertices, glm::vec3(0));

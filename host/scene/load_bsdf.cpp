@@ -271,6 +271,10 @@ BsdfKind load_bsdf(SceneLoader& loader, const XmlNode& node) {
   }
   BsdfKind kind = reader->second(plugin);
   plugin.finish();
+  // References let few lines mean very many; to be found before anybody walks over them.
+  constexpr size_t kMostLeaves = 64;
+  if (const size_t leaves = count_leaves(loader.scene, kind); leaves > kMostLeaves)
+    throw InputError(node.where, fmt::format("{} holds {} bsdfs, expected at most {}", plugin.type(), leaves, kMostLeaves));
   return kind;
 }
 

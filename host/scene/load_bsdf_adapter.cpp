@@ -27,6 +27,7 @@ TextureIndex read_height(const Plugin& plugin, double& scale) {
   SceneLoader& loader = plugin.loader();
   const XmlNode& node = find_texture(plugin);
   if (!node.legacy || node.type() != "scale") return loader.texture(node);
+  const SceneLoader::Nesting nesting(loader, node);
   const Plugin scaled(loader, node);
   scale *= scaled.real("scale", 1);
   const TextureIndex height = read_height(scaled, scale);
@@ -51,6 +52,17 @@ bool transmits(const Scene& scene, BsdfIndex index) {
 }
 
 }  // namespace
+
+size_t count_leaves(const Scene& scene, const BsdfKind& kind) {
+  const auto child = [&](BsdfIndex i) { return count_leaves(scene, scene.bsdfs[static_cast<size_t>(i)].kind); };
+  if (const auto* two = std::get_if<TwoSidedBsdf>(&kind))
+    return two->front == two->back ? child(two->front) : child(two->front) + child(two->back);
+  if (const auto* mask = std::get_if<MaskBsdf>(&kind)) return child(mask->child);
+  if (const auto* blend = std::get_if<BlendBsdf>(&kind)) return child(blend->first) + child(blend->second);
+  if (const auto* map = std::get_if<NormalMapBsdf>(&kind)) return child(map->child);
+  if (const auto* bump = std::get_if<BumpMapBsdf>(&kind)) return child(bump->child);
+  return 1;
+}
 
 BsdfKind load_twosided(const Plugin& plugin) {
   const auto children = read_children(plugin, 1, 2);

@@ -28,6 +28,7 @@ std::vector<std::string> read_aovs(const Plugin& plugin) {
 }
 
 void load_nested(SceneLoader& loader, const Plugin& outer) {
+  const SceneLoader::Nesting nesting(loader, outer.node());
   const XmlNode* inner = outer.object("integrator");
   if (!inner) throw InputError(outer.where(), fmt::format("{} holds no integrator", outer.type()));
   load_integrator(loader, *inner);

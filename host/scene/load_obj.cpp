@@ -1,7 +1,9 @@
 // Wavefront OBJ. Own code, as tinyobjloader takes 0 for a number that does not parse, and cuts quads along
 // the shorter diagonal where Mitsuba takes a fan.
 
+#include <array>
 #include <limits>
+#include <map>
 
 #include "base/read_file.h"
 #include "scene/load_mesh.h"
@@ -10,6 +12,7 @@
 namespace tachylite {
 namespace {
 
+constexpr int kLongList = 64;
 constexpr uint32_t kAbsent = std::numeric_limits<uint32_t>::max();
 
 class ObjReader {
@@ -108,14 +111,17 @@ class ObjReader {
     cursor_.fail(fmt::format("corner of a face is \"{:.30}\", expected v, v/vt, v//vn or v/vt/vn", word));
   }
 
-  /// The vertex with these three; vertices of one position form a list.
+  /// The vertex with these three; vertices of one position form a list, and those beyond kLongList are in crowded_.
   uint32_t find_vertex(uint32_t position, uint32_t uv, uint32_t normal) {
     uint32_t* link = &first_[position];
-    while (*link != kAbsent) {
+    int length = 0;
+    for (; *link != kAbsent && length < kLongList; ++length) {
       Binding& binding = bindings_[*link];
       if (binding.uv == uv && binding.normal == normal) return *link;
       link = &binding.next;
     }
+    if (length == kLongList) link = &crowded_.try_emplace({position, uv, normal}, kAbsent).first->second;
+    if (*link != kAbsent) return *link;
     const auto vertex = static_cast<uint32_t>(bindings_.size());
     if (vertex == kAbsent) cursor_.fail("the mesh has too many vertices");
     *link = vertex;
@@ -138,6 +144,7 @@ class ObjReader {
   std::vector<glm::vec2> uvs_;
   std::vector<uint32_t> first_;    // of each position: its first vertex
   std::vector<Binding> bindings_;  // of each vertex
+  std::map<std::array<uint32_t, 3>, uint32_t> crowded_;
   bool any_uv_ = false, any_normal_ = false;
   Mesh mesh_;
 };

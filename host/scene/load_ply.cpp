@@ -102,7 +102,7 @@ class PlyReader {
         read_vertices(element);
       } else if (element.name == "face") {
         read_faces(element);
-      } else {
+      } else if (!element.properties.empty()) {
         for (uint64_t i = 0; i < element.count; ++i) read_row(element, -1, [](double) {});
       }
     }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "scene/field_of_view.h"
 #include "scene/load_objects.h"
 #include "scene/parse_transform.h"
@@ -46,6 +47,9 @@ Film load_film(SceneLoader& loader, const XmlNode& node) {
   film.crop_y = plugin.integer("crop_offset_y", 0, 0, film.height - 1);
   film.crop_width = plugin.integer("crop_width", film.width - film.crop_x, 1, film.width - film.crop_x);
   film.crop_height = plugin.integer("crop_height", film.height - film.crop_y, 1, film.height - film.crop_y);
+  constexpr uint64_t kBytesOfPixel = 9 * sizeof(double);  // sums and squares in double, the image in float
+  require_memory(plugin.where("width"), fmt::format("a film of {} x {} pixels", film.crop_width, film.crop_height),
+                 kBytesOfPixel * static_cast<uint64_t>(film.crop_width) * static_cast<uint64_t>(film.crop_height));
   if (const XmlNode* filter = plugin.object("rfilter")) load_filter(loader, *filter, film);
   // How a file would be written; and borders, which filters see only with more samples than there are pixels
   // for.

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "scene/load_mesh.h"
 #include "scene/load_objects.h"
 #include "scene/parse_transform.h"
@@ -110,6 +112,8 @@ void load_shape(SceneLoader& loader, const XmlNode& node, const dmat4& placement
   const std::string& type = plugin.type();
   if (type == "instance") return load_instance(loader, plugin);
   const size_t index = loader.scene.shapes.size();
+  if (std::has_single_bit(index))  // about to grow: instances let few lines mean very many
+    require_memory(node.where, fmt::format("a scene of more than {} shapes", index), 3 * index * sizeof(Shape));
   Shape shape;
   shape.where = node.where;
   shape.id = node.id();

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "base/read_file.h"
@@ -89,6 +90,7 @@ dvec3 read_spectrum_file(const std::filesystem::path& file, ColorUse use) {
 
 /// <spectrum type="srgb"> ..., as far as they mean something without wavelengths.
 dvec3 parse_spectrum_plugin(SceneLoader& loader, const XmlNode& node, ColorUse use) {
+  const SceneLoader::Nesting nesting(loader, node);
   const Plugin plugin(loader, node);
   dvec3 color(0);
   if (plugin.type() == "srgb") {
@@ -145,6 +147,7 @@ dvec3 parse_color(SceneLoader& loader, const XmlNode& node, const std::string& o
     throw InputError(node.children.front().where, fmt::format("<{}> cannot hold other elements", node.tag));
   for (int c = 0; c < 3; ++c) {
     if (color[c] < 0) fail(node, owner, "no negative values");
+    if (!(color[c] <= std::numeric_limits<float>::max())) fail(node, owner, "values that a float can hold");
     if (use == ColorUse::kReflectance && color[c] > 1) fail(node, owner, "values within [0, 1]");
   }
   return color;

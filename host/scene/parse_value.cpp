@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace tachylite {
@@ -31,7 +32,7 @@ std::optional<T> parse_whole(std::string_view text) {
 
 std::optional<double> parse_real(std::string_view text) {
   const auto value = parse_whole<double>(text);
-  return value && std::isfinite(*value) ? value : std::nullopt;
+  return value && std::abs(*value) <= std::numeric_limits<float>::max() ? value : std::nullopt;
 }
 
 std::optional<int64_t> parse_integer(std::string_view text) {

@@ -1,6 +1,7 @@
 #include "scene/plugin.h"
 
 #include <algorithm>
+#include <set>
 
 #include "base/error.h"
 #include "scene/parse_color.h"
@@ -34,14 +35,16 @@ bool contains(Range range, double value) {
 
 Plugin::Plugin(SceneLoader& loader, const XmlNode& node) : loader_(loader), node_(node) {
   node.used = true;
-  // A name that is given twice could mean either.
-  for (size_t i = 0; i < node.children.size(); ++i)
-    for (size_t j = 0; j < i; ++j)
-      if (node.children[i].known && node.children[j].known && !node.children[i].name().empty() &&
-          node.children[i].name() == node.children[j].name() &&
-          !(is_object_tag(node.children[i].tag) && node.children[i].tag != node.children[j].tag))
-        throw InputError(node.children[i].where,
-                         fmt::format("{} has the parameter {} twice", type(), node.children[i].name()));
+  // A name that is given twice could mean either, unless objects of different kinds bear it.
+  std::set<std::string_view> names;
+  std::set<std::pair<std::string_view, std::string_view>> objects_of;
+  for (const XmlNode& child : node.children) {
+    if (!child.known || child.name().empty()) continue;
+    const bool new_name = names.insert(child.name()).second;
+    const bool new_object = objects_of.emplace(child.name(), child.tag).second;
+    if (!(is_object_tag(child.tag) ? new_object : new_name))
+      throw InputError(child.where, fmt::format("{} has the parameter {} twice", type(), child.name()));
+  }
 }
 
 const XmlNode* Plugin::find(std::string_view name) const {

@@ -7,6 +7,8 @@
 namespace tachylite {
 namespace {
 
+constexpr size_t kMostNames = 1000;  // elements, and properties of one
+
 PlyType read_type(TextCursor& cursor) {
   const std::string_view word = cursor.word();
   if (word == "char" || word == "int8") return PlyType::kInt8;
@@ -107,10 +109,13 @@ PlyHeader read_ply_header(TextCursor& cursor) {
     } else if (keyword == "element") {
       PlyElement element = read_element(cursor);
       if (header.find(element.name)) cursor.fail(fmt::format("element {:.30} is given twice", element.name));
+      if (header.elements.size() >= kMostNames) cursor.fail(fmt::format("more than {} elements", kMostNames));
       header.elements.push_back(std::move(element));
     } else if (keyword == "property") {
       if (header.elements.empty()) cursor.fail("a property stands before the first element");
       PlyElement& element = header.elements.back();
+      if (element.properties.size() >= kMostNames)
+        cursor.fail(fmt::format("element {:.30} has more than {} properties", element.name, kMostNames));
       element.properties.push_back(read_property(cursor, element));
     } else {
       cursor.fail(fmt::format("\"{:.30}\" in the header of a PLY file", keyword));

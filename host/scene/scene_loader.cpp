@@ -114,9 +114,11 @@ std::filesystem::path SceneLoader::find_file(const XmlNode& node, const std::str
 const XmlNode& SceneLoader::resolve(const XmlNode& node) const {
   if (node.tag != "ref") return node;
   std::string id = node.id();
+  constexpr size_t kMostHops = 64;
   for (size_t hops = 0; tree_.aliases.contains(id); ++hops) {
-    if (hops > tree_.aliases.size())
-      throw InputError(node.where, fmt::format("alias \"{}\" refers to itself", id));
+    if (hops > kMostHops)
+      throw InputError(node.where, fmt::format("alias \"{}\" refers to itself, or stands at the end of more than {}", id,
+                                               kMostHops));
     id = tree_.aliases.at(id);
   }
   const auto found = ids_.find(id);
@@ -124,13 +126,19 @@ const XmlNode& SceneLoader::resolve(const XmlNode& node) const {
   return *found->second;
 }
 
+SceneLoader::Nesting::Nesting(SceneLoader& loader, const XmlNode& node) : loader_(loader), node_(node) {
+  constexpr size_t kDeepest = 64;
+  if (loader.loading_.contains(&node))
+    throw InputError(node.where, fmt::format("<{}> \"{}\" contains itself by reference", node.tag, node.id()));
+  if (loader.loading_.size() >= kDeepest)
+    throw InputError(node.where, fmt::format("references are nested more than {} deep", kDeepest));
+  loader.loading_.insert(&node);
+}
+
 int SceneLoader::once(const XmlNode& node, const std::function<int()>& load) {
   if (const auto found = loaded_.find(&node); found != loaded_.end()) return found->second;
-  if (!loading_.insert(&node).second)
-    throw InputError(node.where,
-                     fmt::format("<{}> \"{}\" contains itself by reference", node.tag, node.id()));
+  const Nesting nesting(*this, node);
   const int index = load();
-  loading_.erase(&node);
   loaded_.emplace(&node, index);
   return index;
 }

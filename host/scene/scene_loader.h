@@ -30,6 +30,20 @@ class SceneLoader {
   /// `node` itself, or what it refers to when it is a <ref>.
   const XmlNode& resolve(const XmlNode& node) const;
 
+  /// To be held while an object is read that may hold others: throws where these refer back to it, or where references
+  /// lead too deep.
+  class Nesting {
+   public:
+    Nesting(SceneLoader& loader, const XmlNode& node);
+    ~Nesting() { loader_.loading_.erase(&node_); }
+    Nesting(const Nesting&) = delete;
+    Nesting& operator=(const Nesting&) = delete;
+
+   private:
+    SceneLoader& loader_;
+    const XmlNode& node_;
+  };
+
   /// Index of the object that `node` describes; read once however often it is referred to.
   TextureIndex texture(const XmlNode& node);
   BsdfIndex bsdf(const XmlNode& node);
@@ -68,7 +82,7 @@ class SceneLoader {
   void load_used();
   void load_unused();
   void check_mesh_attributes() const;
-  /// Memoises; finds circles of references.
+  /// Memoises.
   int once(const XmlNode& node, const std::function<int()>& load);
 
   XmlTree tree_;

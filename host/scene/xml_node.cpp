@@ -7,6 +7,7 @@
 #include <pugixml.hpp>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/read_file.h"
 #include "scene/parse_value.h"
 
@@ -15,6 +16,9 @@ namespace {
 
 constexpr int kMaxDepth = 64;            // of nested elements
 constexpr size_t kMaxIncludeDepth = 16;  // of nested files
+constexpr size_t kMaxFiles = 10000, kMaxFolders = 1000;
+constexpr uint64_t kMaxBytes = uint64_t{1} << 30;      // of all files together
+constexpr size_t kMaxSubstituted = size_t{1} << 26;  // characters that stand for $names, in all
 
 struct Attributes {
   std::set<std::string_view> allowed;
@@ -125,7 +129,11 @@ class Reader {
     open_files_.push_back(canonical);
 
     // Parse it and note where lines start.
-    const FileBytes bytes = read_file(file, uint64_t{1} << 30);
+    if (++files_ > kMaxFiles) throw InputError(asked_at, fmt::format("more than {} files are included", kMaxFiles));
+    const FileBytes bytes = read_file(file, kMaxBytes - bytes_);
+    bytes_ += bytes.size;
+    constexpr uint64_t kBytesOfElement = 450;  // here and in the parser
+    require_memory(asked_at, "the scene's text", kBytesOfElement * std::count(bytes.view().begin(), bytes.view().end(), '<'));
     Source source{std::make_shared<const std::string>(file.string()), {0}};
     for (size_t i = 0; i < bytes.size; ++i)
       if (bytes.data[i] == '\n') source.line_starts.push_back(static_cast<ptrdiff_t>(i) + 1);
@@ -206,6 +214,8 @@ class Reader {
       const auto folder = find_file(node.attribute("value"), source);
       if (!folder || !std::filesystem::is_directory(*folder))
         throw InputError(where, fmt::format("folder \"{}\" does not exist", node.attribute("value")));
+      if (tree_.search_folders.size() >= kMaxFolders)
+        throw InputError(where, fmt::format("more than {} <path>", kMaxFolders));
       tree_.search_folders.insert(tree_.search_folders.begin(), *folder);
     } else if (node.tag == "alias") {
       if (!tree_.aliases.emplace(node.attribute("as"), node.id()).second)
@@ -267,7 +277,11 @@ class Reader {
       if (length == 0) throw InputError(where, fmt::format("the parameter ${} has no value", whole));
       const std::string name(text.substr(0, length));
       mentioned_.insert(name);
-      result += parameters_.at(name);
+      const std::string& value = parameters_.at(name);
+      substituted_ += value.size();
+      if (substituted_ > kMaxSubstituted)
+        throw InputError(where, fmt::format("${} and others stand for more than {} characters", name, kMaxSubstituted));
+      result += value;
       text.remove_prefix(length);
     }
     return result;
@@ -278,6 +292,8 @@ class Reader {
   std::set<std::string> mentioned_;
   std::filesystem::path scene_folder_;
   std::vector<std::filesystem::path> open_files_;  // the chain of includes
+  size_t files_ = 0, substituted_ = 0;
+  uint64_t bytes_ = 0;
 };
 
 }  // namespace

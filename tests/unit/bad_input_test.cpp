@@ -212,6 +212,7 @@ TEST_F(BadInput, TransformsSensorsAndFilms) {
     return "<shape type=\"" + type + "\"><transform name=\"to_world\">\n" + operation +
            "</transform></shape>";
   };
+  const std::string huge = "<scale value=\"1e38\"/><scale value=\"1e38\"/><scale value=\"1e38\"/>";
   const auto film = [](const std::string& inner) {
     return "<sensor type=\"perspective\"><film type=\"hdrfilm\">\n" + inner + "</film></sensor>";
   };
@@ -227,7 +228,7 @@ TEST_F(BadInput, TransformsSensorsAndFilms) {
       {shape("cube", "<lookat origin=\"1,1,1\" target=\"1,1,1\" up=\"0,1,0\"/>"), "scene.xml:4", "the same"},
       {shape("cube", "<lookat origin=\"0,0,0\" target=\"0,3,0\" up=\"0,1,0\"/>"), "scene.xml:4", "parallel"},
       {shape("cube", "<shear x=\"1\"/>"), "scene.xml:4", "no transform"},
-      {shape("cube", "<scale value=\"1e200\"/><scale value=\"1e200\"/>"), "scene.xml:3", "overflows"},
+      {shape("cube", huge + huge + huge), "scene.xml:3", "overflows"},
       {shape("sphere", "<scale x=\"2\"/>"), "scene.xml:3", "alike"},
       {shape("cylinder", "<scale x=\"2\"/>"), "scene.xml:3", "circle"},
       {shape("rectangle", "<translate x=\"2e9\"/>"), "scene.xml:3", "too far"},

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "base/file_location.h"
+
+namespace tachylite {
+
+/// Bytes that this process can still have without swapping: what Linux calls available, at most the limit of the
+/// process (RLIMIT_AS). The largest number where neither is known.
+uint64_t available_memory();
+
+/// To be asked before something that the user's input makes large is allocated. Throws InputError that gives needed
+/// and available bytes where `bytes` are not available; `what` needs them: "the film of 4 x 3 pixels".
+void require_memory(const FileLocation& where, const std::string& what, uint64_t bytes);
+
+}  // namespace tachylite
