@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kMaxDepth = 64;            // of nested elements
 constexpr size_t kMaxIncludeDepth = 16;  // of nested files
-constexpr size_t kMaxFiles = 10000, kMaxFolders = 1000;
+constexpr size_t kMaxFiles = 1000, kMaxFolders = 1000;
 constexpr uint64_t kMaxBytes = uint64_t{1} << 30;      // of all files together
 constexpr size_t kMaxSubstituted = size_t{1} << 26;  // characters that stand for $names, in all
 

@@ -77,6 +77,8 @@ BsdfSample sample_bsdf(SurfaceBsdf b, vec2 u, float u_lobe) {
     bool alone = weight >= 1.0;  // then its own weight is exact
     if (!alone && s.pdf > 0.0) s.weight = mixture.f / mixture.pdf;
     s.pdf = s.pdf > 0.0 ? mixture.pdf : 0.0;
+    // What a leaf has drawn at the edge of its domain may, rounded, lie outside of it.
+    if (!alone && !(mixture.pdf > 0.0)) s = absorbed();
   }
   if (is_null) s = sample_null(b.wo);
   return s;

@@ -1,0 +1,87 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "stress/random_scene.h"
+
+namespace tachylite::test {
+namespace {
+
+void append16(std::string& bytes, int value) {
+  bytes += static_cast<char>(value & 255);
+  bytes += static_cast<char>(value >> 8);
+}
+
+/// Targa of 8 bits, uncompressed, rows from the top.
+std::string targa(int width, int height, bool grey, const std::vector<uint8_t>& texels) {
+  std::string bytes = {0, 0, static_cast<char>(grey ? 3 : 2), 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  append16(bytes, width);
+  append16(bytes, height);
+  bytes += static_cast<char>(grey ? 8 : 24);
+  bytes += static_cast<char>(0x20);
+  return bytes.append(texels.begin(), texels.end());
+}
+
+/// Radiance HDR without run lengths, which is what readers take where width < 8.
+std::string radiance(int width, int height, const std::vector<float>& rgb) {
+  std::string bytes = fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", height, width);
+  for (size_t i = 0; i < rgb.size(); i += 3) {
+    const float largest = std::max({rgb[i], rgb[i + 1], rgb[i + 2]});
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    for (size_t c = 0; c < 3; ++c)
+      bytes += static_cast<char>(largest > 0 ? static_cast<int>(std::ldexp(rgb[i + c], 8 - exponent)) : 0);
+    bytes += static_cast<char>(largest > 0 ? exponent + 128 : 0);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+std::string random_image(RandomSource& random, SceneText& scene, double low, double high, bool grey, bool floats) {
+  const int width = random.number(2, 7), height = random.number(2, 7);
+  const auto texels = static_cast<size_t>(width * height);
+  std::string name = fmt::format("image{}.{}", scene.files.size(), floats ? "hdr" : "tga");
+  if (floats) {
+    std::vector<float> rgb(3 * texels);
+    for (float& value : rgb) value = static_cast<float>(random.uniform(low, high));
+    scene.files.emplace_back(name, radiance(width, height, rgb));
+  } else {
+    std::vector<uint8_t> bytes((grey ? 1 : 3) * texels);
+    for (uint8_t& byte : bytes)
+      byte = static_cast<uint8_t>(std::lround(255 * std::clamp(random.uniform(low, high), 0.0, 1.0)));
+    scene.files.emplace_back(name, targa(width, height, grey, bytes));
+  }
+  return name;
+}
+
+Element random_texture(RandomSource& random, SceneText& scene, const std::string& name, double low, double high,
+                       bool grey, bool attribute) {
+  if (attribute && random.chance(0.3)) {
+    Element texture = plugin("texture", name, "mesh_attribute").add(word("name", "vertex_color"));
+    return texture.add(real("scale", random.uniform(0.5, 1) * std::min(1.0, high)));
+  }
+  Element texture;
+  if (random.chance(0.3) && name != "normalmap" && name != "height") {
+    texture = plugin("texture", name, "checkerboard");
+    texture.add(parameter("rgb", "color0", random.rgb(low, high)));
+    texture.add(parameter("rgb", "color1", random.rgb(low, high)));
+  } else {
+    texture = plugin("texture", name, "bitmap");
+    texture.add(word("filename", random_image(random, scene, low, high, grey && random.chance(0.5), random.chance(0.3))));
+    if (random.chance(0.5)) texture.add(word("wrap_mode", random.pick({"repeat", "mirror", "clamp"})));
+    if (random.chance(0.4)) texture.add(word("filter_type", random.pick({"nearest", "bilinear"})));
+    if (name == "normalmap" || random.chance(0.4)) texture.add(boolean("raw", true));
+  }
+  if (random.chance(0.4)) {
+    Element to_uv = {"transform", {{"name", "to_uv"}}, {}};
+    const double x = random.uniform(0.5, 4), y = random.uniform(0.5, 4);
+    to_uv.add({"scale", {{"x", fmt::format("{:.4g}", x)}, {"y", fmt::format("{:.4g}", y)}}, {}});
+    if (random.chance(0.3))
+      to_uv.add({"rotate", {{"z", "1"}, {"angle", fmt::format("{:.4g}", random.uniform(0, 360))}}, {}});
+    texture.add(to_uv);
+  }
+  return texture;
+}
+
+}  // namespace tachylite::test

@@ -1,0 +1,78 @@
+#include <cstring>
+
+#include "stress/random_scene.h"
+
+namespace tachylite::test {
+namespace {
+
+Element phase_function(RandomSource& random, int depth) {
+  if (depth < 2 && random.chance(0.25)) {
+    Element blend = plugin("phase", "blendphase").add(real("weight", random.uniform(0, 1)));
+    blend.add(phase_function(random, depth + 1));
+    return blend.add(phase_function(random, depth + 1));
+  }
+  if (random.chance(0.4)) return plugin("phase", "isotropic");
+  return plugin("phase", "hg").add(real("g", random.uniform(-0.9, 0.9)));
+}
+
+/// A .vol file of a few voxels, some of them zero.
+std::string grid_file(RandomSource& random, SceneText& scene, int channels, double low, double high) {
+  const int32_t header[5] = {1, random.number(1, 5), random.number(1, 5), random.number(1, 5), channels};
+  const float box[6] = {-1, -1, -1, 1, 1, 1};
+  std::string bytes = "VOL\x03";
+  bytes.append(reinterpret_cast<const char*>(header), sizeof header).append(reinterpret_cast<const char*>(box), sizeof box);
+  for (int i = 0; i < header[1] * header[2] * header[3] * channels; ++i) {
+    const bool empty = random.number(0, 4) == 0;
+    const auto value = static_cast<float>(empty ? low : random.uniform(low, high));
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  std::string name = fmt::format("grid{}.vol", scene.files.size());
+  scene.files.emplace_back(name, std::move(bytes));
+  return name;
+}
+
+Element grid_volume(RandomSource& random, SceneText& scene, const std::string& name, int channels, double low,
+                    double high) {
+  Element volume = plugin("volume", name, "gridvolume");
+  volume.add(word("filename", grid_file(random, scene, channels, low, high)));
+  if (random.chance(0.4)) volume.add(word("filter_type", "nearest"));
+  if (random.chance(0.3)) volume.add(word("wrap_mode", random.pick({"repeat", "mirror", "clamp"})));
+  Element place = {"transform", {{"name", "to_world"}}, {}};
+  const double size = random.uniform(1.5, 3);
+  place.add({"translate", {{"value", "-0.5, -0.5, -0.5"}}, {}});
+  place.add({"scale", {{"value", fmt::format("{:.4g}", size)}}, {}});
+  if (random.chance(0.4))
+    place.add({"rotate", {{"y", "1"}, {"angle", fmt::format("{:.4g}", random.uniform(0, 90))}}, {}});
+  return volume.add(place);
+}
+
+}  // namespace
+
+Element random_medium(RandomSource& random, SceneText& scene, const std::string& side) {
+  const bool grid = random.chance(0.35);
+  Element medium = plugin("medium", side, grid ? "heterogeneous" : "homogeneous");
+  const bool fog = side == "medium";
+  const double dense = fog ? 0.15 : 3;
+  if (grid) {
+    medium.add(grid_volume(random, scene, "sigma_t", 1, 0, 1));
+    if (random.chance(0.3))
+      medium.add(grid_volume(random, scene, "albedo", random.chance(0.5) ? 3 : 1, 0.1, 0.95));
+    else
+      medium.add(parameter("rgb", "albedo", random.rgb(0.1, 0.95)));
+    medium.add(real("scale", random.uniform(0.2, 2) * dense));
+  } else {
+    if (random.chance(0.4))
+      medium.add(real("sigma_t", random.uniform(0.05, 1)));
+    else
+      medium.add(parameter("rgb", "sigma_t", random.rgb(0.05, 1)));
+    if (random.chance(0.4))
+      medium.add(real("albedo", random.uniform(0, 0.98)));
+    else
+      medium.add(parameter("rgb", "albedo", random.rgb(0, 0.98)));
+    medium.add(real("scale", random.uniform(0.2, 2) * dense));
+  }
+  if (random.chance(0.7)) medium.add(phase_function(random, 0));
+  return medium;
+}
+
+}  // namespace tachylite::test
