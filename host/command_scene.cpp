@@ -1,11 +1,9 @@
 #include "command_scene.h"
 
-#include <algorithm>
-#include <map>
-
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "scene/aov.h"
 #include "scene/load_xml.h"
 
 namespace tachylite {
@@ -23,14 +21,12 @@ Scene load_scene_of(const SceneArguments& arguments) {
   if (arguments.sensor < 0 || static_cast<size_t>(arguments.sensor) >= scene.sensors.size())
     throw InputError(fmt::format("--sensor {}: the scene has {} sensor{}, counted from 0", arguments.sensor,
                                  scene.sensors.size(), scene.sensors.size() == 1 ? "" : "s"));
-  static const std::map<std::string, std::string> kinds = {
-      {"albedo", "albedo"}, {"normal", "sh_normal"}, {"depth", "depth"}};
   std::vector<std::string>& aovs = scene.integrator.aovs;
-  for (const std::string& name : arguments.aovs) {
-    const auto kind = kinds.find(name);
-    if (kind == kinds.end())
-      throw InputError(fmt::format("--aov {}: expected albedo, normal or depth", name));
-    if (std::find(aovs.begin(), aovs.end(), kind->second) == aovs.end()) aovs.push_back(kind->second);
+  aovs.insert(aovs.end(), arguments.aovs.begin(), arguments.aovs.end());
+  try {
+    parse_aovs(aovs);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("--aov: {}", error.what()));
   }
   return scene;
 }

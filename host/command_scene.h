@@ -14,7 +14,7 @@ struct SceneArguments {
   std::vector<std::string> defines;  // name=value
   bool permissive = false;
   int sensor = 0;
-  std::vector<std::string> aovs;  // albedo, normal, depth: added to those of the scene
+  std::vector<std::string> aovs;  // scene/aov.h: added to those of the scene
 };
 
 /// Reads the scene. Throws InputError, also for a sensor or auxiliary channel that there is not.

@@ -105,7 +105,7 @@ void add_render_options(CLI::App& command, RenderArguments& arguments, int& thre
   add_sampler_option(command, arguments.sampler);
   add_paths_option(command, arguments.max_paths);
   add_threads_option(command, threads);
-  command.add_option("--aov", arguments.scene.aovs, "further layers: albedo,normal,depth")
+  command.add_option("--aov", arguments.scene.aovs, "further layers: albedo,normal,depth,position,uv,prim_index,shape_index,sample_count...")
       ->type_name("LIST")
       ->delimiter(',')
       ->allow_extra_args(false);

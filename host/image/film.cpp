@@ -30,7 +30,8 @@ double FilmBuffer::relative_error() const {
   return mean_luminance > 0 ? std::sqrt(variance / pixels) / (mean_luminance / pixels) : 0;
 }
 
-void FilmBuffer::set_extra_channels(std::vector<std::string> names) {
+void FilmBuffer::set_extra_channels(std::vector<std::string> names, std::string count_name) {
+  count_name_ = std::move(count_name);
   extra_names_ = std::move(names);
   extra_.assign(extra_names_.size(), std::vector<double>(sum_.size(), 0.0));
 }
@@ -54,6 +55,10 @@ Image FilmBuffer::to_image() const {
     std::vector<float>& channel = image.add(extra_names_[c]);
     for (size_t i = 0; i < sum_.size(); ++i)
       channel[i] = static_cast<float>(samples_ ? extra_[c][i] / static_cast<double>(samples_) : 0.0);
+  }
+  if (!count_name_.empty()) {
+    std::vector<float>& channel = image.add(count_name_);
+    std::fill(channel.begin(), channel.end(), static_cast<float>(samples_));
   }
   return image;
 }

@@ -25,8 +25,9 @@ class FilmBuffer {
     sum_[index] += sum;
     square_[index] += sum * sum / static_cast<double>(n);
   }
-  /// Extra channels (AOVs): sums of samples in double, no variance.
-  void set_extra_channels(std::vector<std::string> names);
+  /// Extra channels (AOVs): sums of samples in double, no variance. count_name: of one more with the number of samples;
+  /// empty: none.
+  void set_extra_channels(std::vector<std::string> names, std::string count_name = "");
   void add_extra(size_t index, size_t channel, double sum) { extra_[channel][index] += sum; }
 
   /// To be called after each block has been added to every pixel.
@@ -52,6 +53,7 @@ class FilmBuffer {
   uint64_t samples_ = 0, blocks_ = 0;
   std::vector<glm::dvec3> sum_, square_;
   std::vector<std::string> extra_names_;
+  std::string count_name_;
   std::vector<std::vector<double>> extra_;
 };
 

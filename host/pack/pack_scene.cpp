@@ -89,9 +89,11 @@ void mark_leaves(const Geometry& geometry, const std::vector<uint32_t>& class_of
 }
 
 // The auxiliary channels that the integrator asks for.
-std::vector<Aov> scene_aovs(const Scene& scene) {
+std::vector<Aov> scene_aovs(const Scene& scene, std::string* sample_count_channel = nullptr) {
   std::vector<Aov> aovs = parse_aovs(scene.integrator.aovs);
   if (scene.integrator.moment) aovs.push_back(moment_aov());
+  const std::string count = take_sample_count(aovs);
+  if (sample_count_channel) *sample_count_channel = count;
   return aovs;
 }
 
@@ -200,10 +202,8 @@ PackedScene pack_scene(const Scene& scene, int sensor_index) {
   features.filter = static_cast<uint32_t>(sensor.film.filter);
   set_path_features(scene, features);
   if (samples_segments(features)) features.media |= gpu::kMediaSegments;
-  out.aovs = scene_aovs(scene);
+  out.aovs = scene_aovs(scene, &out.sample_count_channel);
   out.params.class_count = static_cast<uint32_t>(features.classes.size());
-  out.params.light_count = lights.count;
-  out.params.environment_light = lights.environment_row;
   out.pack_seconds = timer.seconds() - out.bvh_seconds;
   return out;
 }

@@ -17,6 +17,7 @@ struct PackedScene {
   gpu::RenderParams params{};  // camera, film, lights; wave-dependent members are filled by the renderer
   FeatureSet features;
   std::vector<Aov> aovs;       // extra channels of the image, in order
+  std::string sample_count_channel;  // empty: none
   Bvh8 bvh;
 
   std::vector<glm::uvec4> triangles;   // shared/geometry.h

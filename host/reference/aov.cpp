@@ -1,10 +1,12 @@
 #include "reference/aov.h"
 
+#include "reference/bsdf/albedo.h"
 #include "shared/aov.h"
 
 namespace tachylite::reference {
 
 Aovs::Aovs(const std::vector<std::string>& specifications) : aovs_(parse_aovs(specifications)) {
+  sample_count_channel_ = take_sample_count(aovs_);
   for (const Aov& aov : aovs_) names_.insert(names_.end(), aov.channels.begin(), aov.channels.end());
 }
 
@@ -21,7 +23,7 @@ void Aovs::evaluate(const World& world, const Ray& camera_ray, std::vector<doubl
   for (const Aov& aov : aovs_) {
     switch (aov.kind) {
       case gpu::kAovAlbedo:
-        add(albedo_bsdf(bsdf, point));
+        add(albedo_bsdf(bsdf, point, glm::dot(hit->frame.n, camera_ray.direction) < 0));
         break;
       case gpu::kAovDepth:
         values.push_back(hit->t);
@@ -36,7 +38,7 @@ void Aovs::evaluate(const World& world, const Ray& camera_ray, std::vector<doubl
         add(hit->n_g);
         break;
       case gpu::kAovShNormal:
-        add(hit->frame.to_world(shading_normal(bsdf, point, hit->frame.to_local(-camera_ray.direction))));
+        add(hit->frame.n);
         break;
       case gpu::kAovDpDu:
         add(hit->dp_du);

@@ -109,6 +109,8 @@ ReferenceImage ReferenceRenderer::image() const {
     image.variance.push_back(impl.variance(pixel));
     for (size_t i = 0; i < image.aovs.size(); ++i) image.aovs[i].values.push_back(pixel.aovs[i] / n);
   }
+  if (const std::string& name = impl.aovs.sample_count_channel(); !name.empty())
+    image.aovs.push_back({name, std::vector<double>(impl.pixels.size(), static_cast<double>(impl.samples))});
   image.nonfinite = impl.nonfinite;
   image.closest_rays = impl.closest_rays;
   image.shadow_rays = impl.shadow_rays;

@@ -39,8 +39,7 @@ struct ReferenceImage {
 class ReferenceRenderer {
  public:
   /// `scene` must outlive this. `aovs` as in Integrator::aovs ("type" or "name:type"), beside those of the
-  /// scene: albedo, depth, position, uv, geo_normal, sh_normal (or normal), dp_du, dp_dv, prim_index,
-  /// shape_index. Throws InputError on an unknown AOV or a sensor that the scene does not have.
+  /// scene (scene/aov.h). Throws InputError on an unknown AOV or a sensor that the scene does not have.
   explicit ReferenceRenderer(const Scene& scene, int sensor = 0, uint32_t seed = 0,
                              const std::vector<std::string>& aovs = {});
   ~ReferenceRenderer();

@@ -54,9 +54,6 @@ EnvironmentEmitter load_environment(const Plugin& plugin, size_t index) {
   loader.defer({}, [&loader, slot, index, where = plugin.where("filename")] {
     auto& waiting = std::get<EnvironmentEmitter>(loader.scene.emitters[index].kind);
     const Bitmap& bitmap = **slot;
-    if (bitmap.width < 2 || bitmap.height < 2)
-      throw InputError(where, fmt::format("envmap has {} x {} pixels, expected at least 2 x 2", bitmap.width,
-                                          bitmap.height));
     waiting.srgb = !bitmap.bytes.empty();
     waiting.bitmap = *slot;
     // Filters of image programs ring below zero next to a sun.

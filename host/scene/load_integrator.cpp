@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "scene/aov.h"
 #include "scene/load_objects.h"
 #include "scene/parse_value.h"
 #include "scene/plugin.h"
@@ -9,21 +10,25 @@
 namespace tachylite {
 namespace {
 
-/// "dd:depth, nn:sh_normal" -> depth, sh_normal
+/// "dd:depth, nn:sh_normal"
 std::vector<std::string> read_aovs(const Plugin& plugin) {
-  static const std::set<std::string_view> known{
-      "depth",  "position", "uv",         "geo_normal",  "sh_normal",     "dp_du", "dp_dv",
-      "duv_dx", "duv_dy",   "prim_index", "shape_index", "boundary_test", "albedo"};
-  const std::string list = plugin.string("aovs", "");
+  static const std::set<std::string_view> missing{"duv_dx", "duv_dy", "boundary_test"};
   std::vector<std::string> aovs;
+  const std::string list = plugin.string("aovs", "");
   for (const std::string_view item : split_list(list)) {
     const size_t colon = item.find(':');
-    const std::string_view kind = colon == item.npos ? item : item.substr(colon + 1);
-    if (!known.contains(kind))
-      plugin.fail("aovs", fmt::format("name:kind with a kind out of: {}", fmt::join(known, ", ")));
-    aovs.emplace_back(kind);
+    const std::string_view type = colon == item.npos ? item : item.substr(colon + 1);
+    if (missing.contains(type))
+      plugin.loader().refuse(plugin.where("aovs"), fmt::format("the AOV {} is not supported", type));
+    else
+      aovs.emplace_back(item);
   }
   if (aovs.empty()) plugin.fail("aovs", "a list such as n:sh_normal, d:depth");
+  try {
+    parse_aovs(aovs);
+  } catch (const InputError& error) {
+    throw InputError(plugin.where("aovs"), error.what());
+  }
   return aovs;
 }
 

@@ -279,7 +279,7 @@ FilmBuffer Renderer::render() {
 
   FilmBuffer film(static_cast<int>(params.width), static_cast<int>(params.height));
   PassSums sums(params, size.blocks, r.scene);
-  film.set_extra_channels(sums.extra_channels());
+  film.set_extra_channels(sums.extra_channels(), r.scene.sample_count_channel);
   Timer timer;
   double relative_error = 0;
   uint64_t estimated_samples = 0;

@@ -7,7 +7,7 @@ layout(local_size_x = 64) in;
 #include "base/queues.glsl"
 #include "geometry/load.glsl"
 #include "geometry/surface.glsl"
-#include "bsdf/bsdf.glsl"
+#include "bsdf/albedo.glsl"
 #include "shared/aov.h"
 
 layout(set = 0, binding = kBindAov) writeonly restrict buffer Aov { vec4 aov[]; };
@@ -52,10 +52,7 @@ void main() {
       sums[kAovPrimIndex] += it.point.primitive == kNoIndex
                                  ? 0.0 : float(it.point.primitive - load_shape(it.shape + 1u).x);
       sums[kAovShapeIndex] += float(it.shape / kShapeRows);
-      if (has_aov(kAovAlbedo) && it.material != kNoIndex) {
-        BsdfEval eval = eval_bsdf(load_bsdf(it, -d), it.n_s);
-        sums[kAovAlbedo] += 3.14159265 * eval.f;
-      }
+      if (has_aov(kAovAlbedo)) sums[kAovAlbedo] += material_albedo(it, -d);
     }
   }
   for (uint k = 0u; k < kAovMoment; ++k) put(k, i, sums[k], hits);

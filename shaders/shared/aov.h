@@ -6,7 +6,7 @@
 #include "interop.h"
 TACHYLITE_SHARED_BEGIN
 
-TACHYLITE_CONST uint kAovAlbedo = 0u;      // pi f for light along the shading normal: diffuse reflectance
+TACHYLITE_CONST uint kAovAlbedo = 0u;      // bsdf/albedo.glsl
 TACHYLITE_CONST uint kAovDepth = 1u;       // distance along the ray from the near clip plane
 TACHYLITE_CONST uint kAovPosition = 2u;    // device space
 TACHYLITE_CONST uint kAovUv = 3u;
@@ -17,7 +17,8 @@ TACHYLITE_CONST uint kAovDpDv = 7u;
 TACHYLITE_CONST uint kAovPrimIndex = 8u;   // of the triangle in its shape
 TACHYLITE_CONST uint kAovShapeIndex = 9u;
 TACHYLITE_CONST uint kAovMoment = 10u;     // squares of the samples' radiance
-TACHYLITE_CONST uint kAovKinds = 11u;
+TACHYLITE_CONST uint kAovKinds = 11u;      // that kernels write
+TACHYLITE_CONST uint kAovSampleCount = 11u; // the host counts
 
 TACHYLITE_SHARED_END
 #endif

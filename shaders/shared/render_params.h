@@ -30,13 +30,9 @@ struct RenderParams {
   uint seed;
   uint end_sample;          // samples of a pixel from this index on are not rendered
   uint class_count;         // material classes
-  uint light_count, light_rows_end;
   float filter_radius, filter_stddev;
-  // Lights; see light/light.glsl
-  uint environment_light;   // first row of the environment's record, kNoIndex when there is none
-  float scene_radius;       // of the sphere around all geometry, centred at device-space origin + scene_centre
   uint aov_stride;          // of the rows of kBindAov: pixels times blocks of a wave
-  vec4 scene_centre;        // device space
+  uint unused, unused2;     // the size is a multiple of 16 bytes, as that of the kernels' block
 };
 
 struct WaveParams {

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/lights.h"
 #include "bench/media.h"
 #include "bench/paths.h"
 #include "bench/rays.h"
@@ -47,6 +48,32 @@ void print_media(const std::vector<MediumGain>& gains, const std::vector<MediumC
   for (const MediumCost& c : costs) fmt::print("{:32} {:8.1f} ns a collision\n", c.kernel, c.ns_per_event);
 }
 
+void print_lights(const std::vector<LightsResult>& results, bool json) {
+  if (!json) fmt::print("{:>8} {:>9} {:>12} {:>9} {:>12} {:>6}\n", "lights", "ns/path", "uniform", "variance", "uniform", "gain");
+  for (size_t i = 0; i < results.size(); ++i) {
+    const LightsResult& r = results[i];
+    if (json)
+      fmt::print("{}{{\"lights\": {}, \"ns_per_path\": {:.1f}, \"uniform_ns_per_path\": {:.1f}, \"relative_variance\": "
+                 "{:.4g}, \"uniform_variance\": {:.4g}, \"equal_time_gain\": {:.2f}}}{}\n",
+                 i == 0 ? "[" : " ", r.lights, r.ns_per_path, r.uniform_ns_per_path, r.relative_variance,
+                 r.uniform_variance, r.equal_time_gain(), i + 1 < results.size() ? "," : "]");
+    else
+      fmt::print("{:8} {:9.0f} {:12.0f} {:9.3g} {:12.3g} {:6.1f}\n", r.lights, r.ns_per_path, r.uniform_ns_per_path,
+                 r.relative_variance, r.uniform_variance, r.equal_time_gain());
+  }
+}
+
+void print_sun(const std::vector<SunResult>& results, bool json) {
+  for (size_t i = 0; i < results.size(); ++i) {
+    const SunResult& r = results[i];
+    if (json)
+      fmt::print("{}{{\"sampling\": \"{}\", \"relative_variance\": {:.4g}, \"ns_per_path\": {:.1f}}}{}\n",
+                 i == 0 ? "[" : " ", r.sampling, r.relative_variance, r.ns_per_path, i + 1 < results.size() ? "," : "]");
+    else
+      fmt::print("{:8} relative variance {:9.3g}, {:5.0f} ns/path\n", r.sampling, r.relative_variance, r.ns_per_path);
+  }
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Benchmarks of Tachylite's kernels");
   app.require_subcommand(1);
@@ -67,6 +94,13 @@ int run(int argc, char** argv) {
   CLI::App* media = app.add_subcommand("media", "gain of sampling in media, and the cost of a collision");
   int replicates = 8;
   media->add_option("--replicates", replicates, "independent renders of each")->check(CLI::Range(2, 1000));
+  CLI::App* lights = app.add_subcommand("lights", "direct light of 1 to 1,000,000 emissive triangles, and of a small sun");
+  bool large = false, sun = false;
+  int lights_repetitions = 8;
+  lights->add_flag("--large", large, "a million, too");
+  lights->add_flag("--sun", sun, "an environment with a small sun instead");
+  lights->add_option("--repetitions", lights_repetitions, "renders of each measurement")->check(CLI::Range(2, 1000));
+  lights->add_flag("--json", json);
 
   try {
     app.parse(argc, argv);
@@ -76,6 +110,8 @@ int run(int argc, char** argv) {
   if (rays->parsed()) print_rays(bench_rays(scene, repetitions), json);
   if (paths->parsed()) print_paths(bench_paths(paths_repetitions), json);
   if (media->parsed()) print_media(bench_medium_gains(replicates), bench_medium_costs());
+  if (lights->parsed() && sun) print_sun(bench_sun(lights_repetitions), json);
+  if (lights->parsed() && !sun) print_lights(bench_lights(large, lights_repetitions), json);
   return 0;
 }
 

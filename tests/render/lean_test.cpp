@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "shared/light.h"
 #include "support/render_test.h"
 #include "wavefront/scene_buffers.h"
 
@@ -66,6 +67,22 @@ TEST_F(Lean, EachFeatureBringsItsOwn) {
   const Scene ball = scene_from_elements(sensor + R"(<shape type="sphere"/><emitter type="point"/>)");
   EXPECT_TRUE(names(buffers_of(ball), "curved"));
   EXPECT_FALSE(names(buffers_of(ball), "triangles"));
+}
+
+// One light needs no table to choose from, and a constant environment is no second one: material samples find it.
+TEST_F(Lean, OneLightIsNotChosen) {
+  const std::string sensor = R"(<integrator type="path"/>)" + sensor_element(8, 8) + R"(<shape type="rectangle"/>)";
+  const std::string lamp = R"(<shape type="sphere"><point name="center" x="0" y="2" z="0"/><emitter type="area"/></shape>)";
+  const std::string sky = R"(<emitter type="constant"/>)", point = R"(<emitter type="point"/>)";
+  for (const std::string& lights : {lamp, point, lamp + sky}) {
+    const PackedScene packed = pack_scene(scene_from_elements(sensor + lights));
+    EXPECT_EQ(packed.features.selection, gpu::kSelectSingle);
+    EXPECT_EQ(packed.light_table.size(), gpu::kLightTableHeaderRows);
+  }
+  EXPECT_EQ(pack_scene(scene_from_elements(sensor + sky)).features.selection, gpu::kSelectNone);
+  EXPECT_EQ(pack_scene(scene_from_elements(sensor + lamp + point)).features.selection, gpu::kSelectLoop);
+  // The table of lights is its header alone.
+  EXPECT_FALSE(names(buffers_of(scene_from_elements(sensor + lamp)), "environment"));
 }
 
 }  // namespace

@@ -180,7 +180,7 @@ TEST_F(LoadScene, Integrators) {
   EXPECT_EQ(wrapped.kind, Integrator::Kind::kVolpathMis);
   EXPECT_EQ(wrapped.max_depth, 7);
   EXPECT_TRUE(wrapped.moment);
-  EXPECT_EQ(wrapped.aovs, (std::vector<std::string>{"albedo", "depth"}));
+  EXPECT_EQ(wrapped.aovs, (std::vector<std::string>{"a:albedo", "dd.y:depth"}));
   const Integrator direct =
       integrator("<integrator type=\"direct\"><integer name=\"bsdf_samples\" value=\"0\"/></integrator>");
   EXPECT_EQ(direct.strategy, Integrator::Strategy::kEmitterOnly);

@@ -276,7 +276,7 @@ TEST(ReferenceRendering, AovsHaveMitsubasChannels) {
   SceneBuilder b;
   b.add_shape(RectangleShape{}, scaled(dvec3(5)), b.add(DiffuseBsdf{dvec3(0.1, 0.2, 0.3)}));
   b.look({0, 0, 3}, {0, 0, 0});
-  b.scene.integrator.aovs = {"albedo:albedo,nn:sh_normal"};
+  b.scene.integrator.aovs = {"albedo:albedo", "nn:sh_normal", "dd:depth"};
   ReferenceOptions options;
   options.samples = 2;
   options.aovs = {"depth", "uv", "shape_index"};
@@ -284,11 +284,11 @@ TEST(ReferenceRendering, AovsHaveMitsubasChannels) {
   const std::vector<std::string> names{
       "R",          "variance.R", "m2_R",     "G",        "variance.G",   "m2_G", "B",
       "variance.B", "m2_B",       "albedo.R", "albedo.G", "albedo.B",     "nn.X", "nn.Y",
-      "nn.Z",       "depth.T",    "uv.U",     "uv.V",     "shape_index.I"};
+      "nn.Z",       "dd.T",       "depth.Z",  "uv.U",     "uv.V",         "shape_index.I"};
   EXPECT_EQ(image.names, names);
   EXPECT_NEAR(image.find("albedo.G")->at(0), 0.2, 1e-7);
   EXPECT_NEAR(image.find("nn.Z")->at(5), 1, 1e-7);
-  EXPECT_NEAR(image.find("depth.T")->at(5), 2.99, 0.1);
+  EXPECT_NEAR(image.find("depth.Z")->at(5), 2.99, 0.1);
   options.aovs = {"nonsense"};
   EXPECT_THROW(render_reference(b.scene, options), InputError);
 }

@@ -35,9 +35,4 @@ dvec3 null_transmission(const BlendBsdf& bsdf, const ShadingPoint& point, const 
   return (1 - w) * null_transmission(bsdf.first, point, wo) + w * null_transmission(bsdf.second, point, wo);
 }
 
-dvec3 albedo_bsdf(const BlendBsdf& bsdf, const ShadingPoint& point) {
-  const double w = weight_of_second(bsdf, point);
-  return (1 - w) * albedo_bsdf(bsdf.first, point) + w * albedo_bsdf(bsdf.second, point);
-}
-
 }  // namespace tachylite::reference

@@ -56,8 +56,4 @@ dvec3 eval_bsdf(const BlinnPhongBsdf& bsdf, const ShadingPoint& point, const dve
   return (c.kd / kPi + c.ks * ((n + 2) / (2 * kPi) * std::pow(h.z, n))) * wi.z;
 }
 
-dvec3 albedo_bsdf(const BlinnPhongBsdf& bsdf, const ShadingPoint& point) {
-  return coefficients(bsdf, point).kd;
-}
-
 }  // namespace tachylite::reference

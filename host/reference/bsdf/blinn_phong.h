@@ -11,6 +11,5 @@ std::optional<BsdfSample> sample_bsdf(const BlinnPhongBsdf& bsdf, const ShadingP
                                       Random& random);
 double pdf_bsdf(const BlinnPhongBsdf& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi);
 dvec3 eval_bsdf(const BlinnPhongBsdf& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi);
-dvec3 albedo_bsdf(const BlinnPhongBsdf& bsdf, const ShadingPoint& point);
 
 }  // namespace tachylite::reference

@@ -32,15 +32,6 @@ template <class Kind>
 dvec3 null_transmission(const Kind&, const ShadingPoint&, const dvec3&) {
   return dvec3(0);
 }
-template <class Kind>
-dvec3 albedo_bsdf(const Kind& bsdf, const ShadingPoint& point) {
-  return kPi * eval_bsdf(bsdf, point, {0, 0, 1}, {0, 0, 1});
-}
-template <class Kind>
-dvec3 perturbed_normal(const Kind&, const ShadingPoint&, const dvec3&) {
-  return {0, 0, 1};
-}
-
 const BsdfKind& kind_of(const Scene& scene, BsdfIndex bsdf) {
   return scene.bsdfs[static_cast<size_t>(bsdf)].kind;
 }
@@ -85,15 +76,6 @@ dvec3 eval_bsdf(BsdfIndex bsdf, const ShadingPoint& point, const dvec3& wo, cons
 
 dvec3 null_transmission(BsdfIndex bsdf, const ShadingPoint& point, const dvec3& wo) {
   return std::visit([&](const auto& kind) { return null_transmission(kind, point, wo); },
-                    kind_of(point, bsdf));
-}
-
-dvec3 albedo_bsdf(BsdfIndex bsdf, const ShadingPoint& point) {
-  return std::visit([&](const auto& kind) { return albedo_bsdf(kind, point); }, kind_of(point, bsdf));
-}
-
-dvec3 shading_normal(BsdfIndex bsdf, const ShadingPoint& point, const dvec3& wo) {
-  return std::visit([&](const auto& kind) { return perturbed_normal(kind, point, wo); },
                     kind_of(point, bsdf));
 }
 

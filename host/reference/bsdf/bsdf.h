@@ -69,11 +69,6 @@ dvec3 eval_bsdf(BsdfIndex bsdf, const ShadingPoint& point, const dvec3& wo, cons
 
 /// Fraction of light that passes straight through, for shadow rays of the volumetric integrators.
 dvec3 null_transmission(BsdfIndex bsdf, const ShadingPoint& point, const dvec3& wo);
-/// Mitsuba's AOV albedo: the diffuse reflectance; for materials without one, pi times f at normal incidence.
-dvec3 albedo_bsdf(BsdfIndex bsdf, const ShadingPoint& point);
-/// Shading normal in the local frame after normal and bump maps (of the outermost adapter), for the AOV
-/// sh_normal.
-dvec3 shading_normal(BsdfIndex bsdf, const ShadingPoint& point, const dvec3& wo);
 /// False when all lobes are delta or null: light sampling is pointless then.
 bool has_smooth_lobe(const Scene& scene, BsdfIndex bsdf);
 

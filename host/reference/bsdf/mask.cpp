@@ -31,8 +31,4 @@ dvec3 null_transmission(const MaskBsdf& bsdf, const ShadingPoint& point, const d
   return 1 - a + a * null_transmission(bsdf.child, point, wo);
 }
 
-dvec3 albedo_bsdf(const MaskBsdf& bsdf, const ShadingPoint& point) {
-  return opacity(bsdf, point) * albedo_bsdf(bsdf.child, point);
-}
-
 }  // namespace tachylite::reference

@@ -10,6 +10,5 @@ std::optional<BsdfSample> sample_bsdf(const MaskBsdf& bsdf, const ShadingPoint& 
 double pdf_bsdf(const MaskBsdf& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi);
 dvec3 eval_bsdf(const MaskBsdf& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi);
 dvec3 null_transmission(const MaskBsdf& bsdf, const ShadingPoint& point, const dvec3& wo);
-dvec3 albedo_bsdf(const MaskBsdf& bsdf, const ShadingPoint& point);
 
 }  // namespace tachylite::reference

@@ -42,8 +42,4 @@ dvec3 eval_bsdf(const MicrofacetBsdf& bsdf, const ShadingPoint& point, const dve
   return point.color(bsdf.kd) * (wi.z / kPi) + specular_weight(bsdf, point) * specular;
 }
 
-dvec3 albedo_bsdf(const MicrofacetBsdf& bsdf, const ShadingPoint& point) {
-  return point.color(bsdf.kd);
-}
-
 }  // namespace tachylite::reference

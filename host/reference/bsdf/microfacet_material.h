@@ -10,6 +10,5 @@ std::optional<BsdfSample> sample_bsdf(const MicrofacetBsdf& bsdf, const ShadingP
                                       Random& random);
 double pdf_bsdf(const MicrofacetBsdf& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi);
 dvec3 eval_bsdf(const MicrofacetBsdf& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi);
-dvec3 albedo_bsdf(const MicrofacetBsdf& bsdf, const ShadingPoint& point);
 
 }  // namespace tachylite::reference

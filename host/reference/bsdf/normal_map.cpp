@@ -104,18 +104,4 @@ dvec3 null_transmission(const BumpMapBsdf& bsdf, const ShadingPoint& point, cons
   return null_transmission(bsdf.child, point, wo);
 }
 
-dvec3 albedo_bsdf(const NormalMapBsdf& bsdf, const ShadingPoint& point) {
-  return albedo_bsdf(bsdf.child, point);
-}
-dvec3 albedo_bsdf(const BumpMapBsdf& bsdf, const ShadingPoint& point) {
-  return albedo_bsdf(bsdf.child, point);
-}
-
-dvec3 perturbed_normal(const NormalMapBsdf& bsdf, const ShadingPoint& point, const dvec3& wo) {
-  return perturb(bsdf, point, wo).frame.n;
-}
-dvec3 perturbed_normal(const BumpMapBsdf& bsdf, const ShadingPoint& point, const dvec3& wo) {
-  return perturb(bsdf, point, wo).frame.n;
-}
-
 }  // namespace tachylite::reference

@@ -23,10 +23,6 @@ double pdf_bsdf(const BumpMapBsdf& bsdf, const ShadingPoint& point, const dvec3&
 dvec3 eval_bsdf(const BumpMapBsdf& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi);
 dvec3 null_transmission(const NormalMapBsdf& bsdf, const ShadingPoint& point, const dvec3& wo);
 dvec3 null_transmission(const BumpMapBsdf& bsdf, const ShadingPoint& point, const dvec3& wo);
-dvec3 albedo_bsdf(const NormalMapBsdf& bsdf, const ShadingPoint& point);
-dvec3 albedo_bsdf(const BumpMapBsdf& bsdf, const ShadingPoint& point);
 /// n' in the original frame, for the AOV sh_normal.
-dvec3 perturbed_normal(const NormalMapBsdf& bsdf, const ShadingPoint& point, const dvec3& wo);
-dvec3 perturbed_normal(const BumpMapBsdf& bsdf, const ShadingPoint& point, const dvec3& wo);
 
 }  // namespace tachylite::reference

@@ -31,8 +31,4 @@ dvec3 null_transmission(const PaperBsdf& bsdf, const ShadingPoint& point, const 
   return dvec3(transparency(bsdf, point));
 }
 
-dvec3 albedo_bsdf(const PaperBsdf& bsdf, const ShadingPoint& point) {
-  return point.color(bsdf.reflectance) * (1 - transparency(bsdf, point));
-}
-
 }  // namespace tachylite::reference

@@ -39,8 +39,4 @@ dvec3 eval_bsdf(const PlasticBsdf& bsdf, const ShadingPoint& point, const dvec3&
   return base * (t_o * t_i / sqr(bsdf.eta) * wi.z / kPi);
 }
 
-dvec3 albedo_bsdf(const PlasticBsdf& bsdf, const ShadingPoint& point) {
-  return point.color(bsdf.diffuse_reflectance);
-}
-
 }  // namespace tachylite::reference

@@ -13,6 +13,5 @@ std::optional<BsdfSample> sample_bsdf(const PlasticBsdf& bsdf, const ShadingPoin
                                       Random& random);
 double pdf_bsdf(const PlasticBsdf& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi);
 dvec3 eval_bsdf(const PlasticBsdf& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi);
-dvec3 albedo_bsdf(const PlasticBsdf& bsdf, const ShadingPoint& point);
 
 }  // namespace tachylite::reference

@@ -147,8 +147,4 @@ dvec3 eval_bsdf(const PrincipledBsdf& bsdf, const ShadingPoint& point, const dve
   return value;
 }
 
-dvec3 albedo_bsdf(const PrincipledBsdf& bsdf, const ShadingPoint& point) {
-  return point.color(bsdf.base_color);
-}
-
 }  // namespace tachylite::reference

@@ -98,8 +98,4 @@ dvec3 eval_bsdf(const PrincipledThinBsdf& bsdf, const ShadingPoint& point, const
   return specular + (1 - p.spec_trans) * (1 - p.diff_trans) * wi.z * (p.base_color * (diffuse / kPi) + sheen);
 }
 
-dvec3 albedo_bsdf(const PrincipledThinBsdf& bsdf, const ShadingPoint& point) {
-  return point.color(bsdf.base_color);
-}
-
 }  // namespace tachylite::reference

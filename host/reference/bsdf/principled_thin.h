@@ -15,6 +15,5 @@ std::optional<BsdfSample> sample_bsdf(const PrincipledThinBsdf& bsdf, const Shad
                                       const dvec3& wo, Random& random);
 double pdf_bsdf(const PrincipledThinBsdf& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi);
 dvec3 eval_bsdf(const PrincipledThinBsdf& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi);
-dvec3 albedo_bsdf(const PrincipledThinBsdf& bsdf, const ShadingPoint& point);
 
 }  // namespace tachylite::reference

@@ -102,8 +102,4 @@ dvec3 eval_bsdf(const RoughPlasticBsdf& bsdf, const ShadingPoint& point, const d
   return point.color(bsdf.specular_reflectance) * specular + base * (t / sqr(bsdf.eta) * wi.z / kPi);
 }
 
-dvec3 albedo_bsdf(const RoughPlasticBsdf& bsdf, const ShadingPoint& point) {
-  return point.color(bsdf.diffuse_reflectance);
-}
-
 }  // namespace tachylite::reference

@@ -15,7 +15,6 @@ std::optional<BsdfSample> sample_bsdf(const RoughPlasticBsdf& bsdf, const Shadin
                                       const dvec3& wo, Random& random);
 double pdf_bsdf(const RoughPlasticBsdf& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi);
 dvec3 eval_bsdf(const RoughPlasticBsdf& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi);
-dvec3 albedo_bsdf(const RoughPlasticBsdf& bsdf, const ShadingPoint& point);
 
 RoughPlasticTables make_rough_plastic_tables(const RoughPlasticBsdf& bsdf);
 /// Fractions of the light arriving under cos_o that single scattering off (through) a microfacet boundary of

@@ -26,8 +26,4 @@ dvec3 eval_bsdf(const TwoSidedBsdf& bsdf, const ShadingPoint& point, const dvec3
                    : eval_bsdf(bsdf.back, point, mirror(wo), mirror(wi));
 }
 
-dvec3 albedo_bsdf(const TwoSidedBsdf& bsdf, const ShadingPoint& point) {
-  return albedo_bsdf(bsdf.front, point);
-}
-
 }  // namespace tachylite::reference

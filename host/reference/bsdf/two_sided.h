@@ -9,6 +9,5 @@ std::optional<BsdfSample> sample_bsdf(const TwoSidedBsdf& bsdf, const ShadingPoi
                                       Random& random);
 double pdf_bsdf(const TwoSidedBsdf& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi);
 dvec3 eval_bsdf(const TwoSidedBsdf& bsdf, const ShadingPoint& point, const dvec3& wo, const dvec3& wi);
-dvec3 albedo_bsdf(const TwoSidedBsdf& bsdf, const ShadingPoint& point);
 
 }  // namespace tachylite::reference
