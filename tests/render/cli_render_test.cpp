@@ -145,13 +145,13 @@ TEST_P(CliRender, AuxiliaryLayers) {
   ASSERT_EQ(render({"--spp", "8", "--aov", "albedo,normal", "--aov", "depth", "-o", "a.exr"}).exit_code, 0);
   const Image image = read_exr(folder / "a.exr");
   for (const char* name :
-       {"albedo.R", "albedo.G", "albedo.B", "sh_normal.X", "sh_normal.Y", "sh_normal.Z", "depth.T"})
+       {"albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z"})
     EXPECT_TRUE(image.find(name)) << name;
   // The middle of the picture shows a wall or a box of albedo (0.885809, ...), at most 4.9 away.
   const size_t middle = 24 * 12 + 12;
   EXPECT_NEAR(image.find("albedo.R")->at(middle), 0.885809, 1e-5);
-  EXPECT_GT(image.find("depth.T")->at(middle), 3);
-  EXPECT_LT(image.find("depth.T")->at(middle), 4.9);
+  EXPECT_GT(image.find("depth.Z")->at(middle), 3);
+  EXPECT_LT(image.find("depth.Z")->at(middle), 4.9);
 }
 
 TEST_P(CliRender, TimeEndsIt) {
