@@ -35,7 +35,8 @@ TextureIndex read_height(const Plugin& plugin, double& scale) {
   return height;
 }
 
-/// Whether light can pass to the other side.
+}  // namespace
+
 bool transmits(const Scene& scene, BsdfIndex index) {
   const BsdfKind& kind = scene.bsdfs[static_cast<size_t>(index)].kind;
   const auto child = [&](BsdfIndex i) { return transmits(scene, i); };
@@ -50,8 +51,6 @@ bool transmits(const Scene& scene, BsdfIndex index) {
          std::holds_alternative<PrincipledThinBsdf>(kind) || std::holds_alternative<PaperBsdf>(kind) ||
          std::holds_alternative<NullBsdf>(kind);
 }
-
-}  // namespace
 
 size_t count_leaves(const Scene& scene, const BsdfKind& kind) {
   const auto child = [&](BsdfIndex i) { return count_leaves(scene, scene.bsdfs[static_cast<size_t>(i)].kind); };

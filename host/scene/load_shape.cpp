@@ -73,13 +73,20 @@ MediumIndex load_side(SceneLoader& loader, const Plugin& plugin, const char* sid
   return loader.medium(target);
 }
 
-BsdfIndex load_shape_bsdf(SceneLoader& loader, const Plugin& plugin, const Shape& shape, bool emits) {
+BsdfIndex load_strict_bsdf(SceneLoader& loader, const Plugin& plugin, const Shape& shape, bool emits) {
   if (const XmlNode* bsdf = plugin.object("bsdf")) return loader.bsdf(*bsdf);
   // 0.6 takes the border of a medium for one without a surface.
   if (plugin.node().legacy && shape.is_medium_boundary && !emits)
     return loader.default_bsdf("null", NullBsdf{});
   if (emits) return loader.default_bsdf("diffuse (black)", DiffuseBsdf{0.0});
   return loader.default_bsdf("diffuse", DiffuseBsdf{0.5});
+}
+
+/// Mitsuba 0.6 shades the backs of opaque materials black. Many of its files come from renderers that do not, and show
+/// walls from behind: a reader that is asked not to be strict takes them as two-sided.
+BsdfIndex load_shape_bsdf(SceneLoader& loader, const Plugin& plugin, const Shape& shape, bool emits) {
+  const BsdfIndex bsdf = load_strict_bsdf(loader, plugin, shape, emits);
+  return plugin.node().legacy && loader.permissive() ? loader.two_sided_bsdf(bsdf) : bsdf;
 }
 
 /// Copies of a group's shapes. They share meshes, bsdfs and media, but each is a shape of the scene.

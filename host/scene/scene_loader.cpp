@@ -1,9 +1,12 @@
 #include "scene/scene_loader.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/log.h"
 #include "base/parallel.h"
 #include "scene/check_scene.h"
+#include "scene/load_bsdf_adapter.h"
 #include "scene/load_objects.h"
 #include "scene/plugin.h"
 
@@ -48,6 +51,10 @@ void SceneLoader::load_used() {
     integrator = &child;
     load_integrator(*this, child);
   }
+  if (std::any_of(two_sided_.begin(), two_sided_.end(), [](const auto& made) { return made.first != made.second; }))
+    log_warning(fmt::format("{}: opaque materials of this file of version 0.x are taken as two-sided (without "
+                            "--permissive their backs are black, as in Mitsuba)",
+                            tree_.root.where.str()));
   run_jobs();
   check_mesh_attributes();
   loaded_.clear();
@@ -181,6 +188,38 @@ BsdfIndex SceneLoader::default_bsdf(const std::string& name, const BsdfKind& kin
   const auto [entry, added] = defaults_.emplace(name, static_cast<BsdfIndex>(scene.bsdfs.size()));
   if (added) scene.bsdfs.push_back({tree_.root.where, "", name, kind});
   return entry->second;
+}
+
+BsdfIndex SceneLoader::two_sided_bsdf(BsdfIndex index) {
+  if (const auto found = two_sided_.find(index); found != two_sided_.end()) return found->second;
+  Bsdf bsdf = scene.bsdfs[static_cast<size_t>(index)];
+  bool changed = false;
+  const auto enter = [&](BsdfIndex& child) {
+    const BsdfIndex before = child;
+    child = two_sided_bsdf(child);
+    changed = changed || child != before;
+  };
+  if (auto* mask = std::get_if<MaskBsdf>(&bsdf.kind)) {
+    enter(mask->child);
+  } else if (auto* blend = std::get_if<BlendBsdf>(&bsdf.kind)) {
+    enter(blend->first);
+    enter(blend->second);
+  } else if (auto* map = std::get_if<NormalMapBsdf>(&bsdf.kind)) {
+    enter(map->child);
+  } else if (auto* bump = std::get_if<BumpMapBsdf>(&bsdf.kind)) {
+    enter(bump->child);
+  } else if (!std::holds_alternative<TwoSidedBsdf>(bsdf.kind) && !transmits(scene, index)) {
+    bsdf.kind = TwoSidedBsdf{index, index};
+    changed = true;
+  }
+  BsdfIndex result = index;
+  if (changed) {
+    result = static_cast<BsdfIndex>(scene.bsdfs.size());
+    textures_of_[result] = textures_of_[index];
+    scene.bsdfs.push_back(std::move(bsdf));
+  }
+  two_sided_.emplace(index, result);
+  return result;
 }
 
 MediumIndex SceneLoader::medium(const XmlNode& node) {

@@ -52,6 +52,9 @@ class SceneLoader {
   TextureIndex constant_texture(const FileLocation& where, const dvec3& color);
   /// The bsdf of shapes that name none, made once under that name.
   BsdfIndex default_bsdf(const std::string& name, const BsdfKind& kind);
+  /// The bsdf with all its opaque parts two-sided; made once.
+  BsdfIndex two_sided_bsdf(BsdfIndex index);
+  bool permissive() const { return permissive_; }
 
   /// Runs `load` after all XML has been read, in parallel with others; then all `finish` in the order of the
   /// calls. `load` must touch only what it owns.
@@ -94,6 +97,7 @@ class SceneLoader {
   std::set<TextureIndex> textures_seen_;                     // by the bsdf that is being read
   std::map<BsdfIndex, std::set<TextureIndex>> textures_of_;  // of a bsdf and those inside it
   std::map<std::string, BsdfIndex> defaults_;
+  std::map<BsdfIndex, BsdfIndex> two_sided_;
   std::map<std::string, std::shared_ptr<void>> files_;
   std::vector<Job> jobs_;
 };

@@ -341,6 +341,29 @@ TEST_F(LoadScene, PermissiveGoesOnWithoutTheUnknown) {
   EXPECT_TRUE(std::holds_alternative<DiffuseBsdf>(scene.bsdfs[0].kind));
 }
 
+TEST_F(LoadScene, PermissiveTakesOpaqueMaterialsOfOldFilesAsTwoSided) {
+  const auto scene_of = [&](const std::string& version, bool permissive, const std::string& bsdf) {
+    LoadOptions options;
+    options.permissive = permissive;
+    Scene scene = load("<scene version=\"" + version +
+                           "\"><sensor type=\"perspective\"/><emitter type=\"constant\"/><shape type=\"sphere\">" +
+                           bsdf + "</shape></scene>",
+                       options);
+    return scene;
+  };
+  const auto kind_of = [](const Scene& scene) { return scene.bsdfs[static_cast<size_t>(scene.shapes[0].bsdf)].kind; };
+  const std::string diffuse = "<bsdf type=\"diffuse\"/>", masked = "<bsdf type=\"mask\">" + diffuse + "</bsdf>";
+  EXPECT_TRUE(std::holds_alternative<DiffuseBsdf>(kind_of(scene_of("0.5.0", false, diffuse))));
+  EXPECT_TRUE(std::holds_alternative<DiffuseBsdf>(kind_of(scene_of("3.0.0", true, diffuse))));
+  EXPECT_TRUE(std::holds_alternative<TwoSidedBsdf>(kind_of(scene_of("0.5.0", true, diffuse))));
+  EXPECT_TRUE(std::holds_alternative<TwoSidedBsdf>(kind_of(scene_of("0.5.0", true, ""))));
+  EXPECT_TRUE(std::holds_alternative<DielectricBsdf>(
+      kind_of(scene_of("0.5.0", true, "<bsdf type=\"dielectric\"/>"))));
+  const Scene cut = scene_of("0.5.0", true, masked);
+  const auto child = std::get<MaskBsdf>(kind_of(cut)).child;
+  EXPECT_TRUE(std::holds_alternative<TwoSidedBsdf>(cut.bsdfs[static_cast<size_t>(child)].kind));
+}
+
 TEST_F(LoadScene, LinesOfElements) {
   const Scene scene = load(
       "<?xml version=\"1.0\"?>\n<scene version=\"3.0.0\">\n<sensor type=\"perspective\"/>\n\n"
