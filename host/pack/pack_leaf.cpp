@@ -142,10 +142,11 @@ struct LeafPacker {
     if (alpha < kSmoothAlpha)
       return (*this)(PlasticBsdf{b.eta, b.diffuse_reflectance, b.specular_reflectance, b.nonlinear});
     const RoughTransmittance table = rough_transmittance(b.roughness.distribution, alpha, b.eta);
+    const double inside = b.keeps_light_inside ? 1 - table.internal_transmittance : table.internal_reflectance;
     LeafWriter leaf = writer(gpu::kBsdfRoughPlastic, gpu::kMaterialSmooth);
     leaf.distribution(b.roughness.distribution)
         .color(b.diffuse_reflectance).color(b.specular_reflectance)
-        .constants((b.eta - 1) * (b.eta + 1), table.internal_reflectance, 1 / (b.eta * b.eta), b.nonlinear ? 1 : 0)
+        .constants((b.eta - 1) * (b.eta + 1), inside, 1 / (b.eta * b.eta), b.nonlinear ? 1 : 0)
         .constants(alpha);
     for (size_t i = 0; i < table.external.size(); i += 2)
       leaf.constants(table.external[i], table.external[i + 1],

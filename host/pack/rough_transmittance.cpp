@@ -134,6 +134,12 @@ RoughTransmittance rough_transmittance(MicrofacetDistribution distribution, doub
   // 2 integral R mu dmu by Mitsuba's rule, the plain mean of the values at both ends and in between: its error is
   // part of what a scene means.
   result.internal_reflectance = 2 * sum / static_cast<double>(result.external.size());
+  // By reciprocity, integral T_internal(mu) mu dmu = integral T_external(mu) mu dmu / eta^2.
+  for (size_t i = 0; i < rule.nodes.size(); ++i) {
+    const double mu = rule.nodes[i];
+    result.internal_transmittance +=
+        rule.weights[i] * 2 * mu * transmittance(distribution, alpha, eta, mu, inward) / (eta * eta);
+  }
   return result;
 }
 

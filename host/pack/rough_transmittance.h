@@ -13,6 +13,8 @@ struct RoughTransmittance {
   std::array<double, gpu::kRoughTransmittanceSize> external{};
   /// Reflectance of the coat for diffuse light from inside.
   double internal_reflectance = 0;
+  /// Share of the diffuse light from inside that gets out.
+  double internal_transmittance = 0;
 };
 
 /// eta: inside over outside. Visible normals are integrated by a product of Gauss-Legendre rules.

@@ -146,6 +146,7 @@ BsdfKind load_rough_plastic(const Plugin& plugin) {
   plugin.boolean("sample_visible", true);
   bsdf.roughness.alpha_u = bsdf.roughness.alpha_v = plugin.real("alpha", 0.1, kNotNegative);
   read_plastic(plugin, bsdf);
+  bsdf.keeps_light_inside = plugin.node().legacy;
   return bsdf;
 }
 

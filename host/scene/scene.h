@@ -123,6 +123,9 @@ struct RoughPlasticBsdf {
   Roughness roughness;  // isotropic: alpha_u == alpha_v, constant
   ColorInput diffuse_reflectance{0.5}, specular_reflectance{1.0};
   bool nonlinear = false;
+  /// Mitsuba 0.6: what the coat does not let out comes back to the base. Mitsuba 3: only what one reflection at the
+  /// rough coat returns, which is less, as single scattering loses light.
+  bool keeps_light_inside = false;
 };
 struct PrincipledBsdf {
   ColorInput base_color{0.5};

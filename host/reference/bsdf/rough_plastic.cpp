@@ -69,6 +69,13 @@ RoughPlasticTables make_rough_plastic_tables(const RoughPlasticBsdf& bsdf) {
     tables.internal_reflectance +=
         2 * mu * rough_boundary_reflectance(microfacets, 1 / bsdf.eta, mu) / static_cast<double>(n);
   }
+  if (!bsdf.keeps_light_inside) return tables;
+  double leaves = 0;  // of diffuse light from inside; midpoint rule
+  for (size_t i = 0; i < n; ++i) {
+    const double mu = (static_cast<double>(i) + 0.5) / static_cast<double>(n);
+    leaves += 2 * mu * rough_boundary_transmittance(microfacets, 1 / bsdf.eta, mu) / static_cast<double>(n);
+  }
+  tables.internal_reflectance = 1 - leaves;
   return tables;
 }
 
