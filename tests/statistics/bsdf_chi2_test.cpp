@@ -72,7 +72,8 @@ void expect_density(const std::vector<MaterialCase>& cases) {
     if ((probe.material_class(static_cast<int>(i)).flags & gpu::kMaterialSmooth) == 0) continue;
     for (const double angle : angles) {
       if (angle > 90 && !c.two_sided) continue;
-      // A narrow lobe at a grazing angle is cut by the horizon inside the bins: no quadrature of them converges.
+      // A narrow lobe at a grazing angle is cut by the horizon inside the bins, and no quadrature of them converges:
+      // bsdf_grazing_test.
       if (c.alpha < 0.2 && std::abs(std::cos(angle * kPi / 180)) < 0.3) continue;
       SCOPED_TRACE(fmt::format("{}, {} degrees", c.name, angle));
       const glm::vec3 wo = direction(angle);

@@ -29,11 +29,12 @@ struct BsdfProbe::ClassKernel {
   vulkan::BindingTable table;
   vulkan::Kernel kernel;
 
-  ClassKernel(const vulkan::Buffer& rows, const std::string& name, const vulkan::SpecializationConstants& constants)
+  ClassKernel(const vulkan::Buffer& rows, const vulkan::Buffer* textures, const std::string& name,
+              const vulkan::SpecializationConstants& constants)
       : table(device(),
               std::vector<vulkan::Binding>{
                   {gpu::kBindMaterials, BindingKind::kTexel, &rows, VK_FORMAT_R32G32B32A32_UINT},
-                  {gpu::kBindTextures, BindingKind::kTexel, nullptr, VK_FORMAT_R32G32B32A32_UINT},
+                  {gpu::kBindTextures, BindingKind::kTexel, textures, VK_FORMAT_R32G32B32A32_UINT},
                   {gpu::kBindAttributes, BindingKind::kTexel, nullptr, VK_FORMAT_R32G32B32A32_SFLOAT},
                   {gpu::kBindTexels8, BindingKind::kTexel, nullptr, VK_FORMAT_R8G8B8A8_UNORM},
                   {gpu::kBindTexels16, BindingKind::kTexel, nullptr, VK_FORMAT_R16G16B16A16_SFLOAT},
@@ -55,8 +56,9 @@ BsdfProbe::BsdfProbe(Scene scene) : scene_(std::move(scene)) {
     shape.bsdf = static_cast<BsdfIndex>(i);
     scene_.shapes.push_back(shape);
   }
-  std::vector<uint32_t> row_of_texture(scene_.textures.size());
-  materials_ = pack_materials(scene_, row_of_texture);
+  textures_ = pack_textures(scene_, Geometry{});
+  materials_ = pack_materials(scene_, textures_.row_of_texture);
+  if (!textures_.rows.empty()) texture_rows_ = vulkan::Buffer(device(), std::span<const glm::uvec4>(textures_.rows));
   rows_ = vulkan::Buffer(device(), std::span<const glm::uvec4>(materials_.rows));
   kernels_.resize(materials_.classes.size());
 }
@@ -74,7 +76,8 @@ BsdfProbe::ClassKernel& BsdfProbe::kernel(uint32_t material_class) {
   if (!kernel) {
     FeatureSet features;
     features.classes = materials_.classes;
-    kernel = std::make_unique<ClassKernel>(rows_,
+    features.textures = textures_.kinds;
+    kernel = std::make_unique<ClassKernel>(rows_, textures_.rows.empty() ? nullptr : &texture_rows_,
                                            "bsdf_probe" + bsdf_kernel_variant(materials_.classes[material_class]),
                                            features.class_constants(material_class));
   }

@@ -13,6 +13,7 @@
 #include <glm/glm.hpp>
 
 #include "pack/pack_material.h"
+#include "pack/pack_texture.h"
 #include "scene/scene.h"
 #include "vulkan/buffer.h"
 #include "vulkan/kernel.h"
@@ -42,7 +43,7 @@ static_assert(sizeof(BsdfAnswer) == 64);
 
 class BsdfProbe {
  public:
-  /// Every bsdf of the scene can be asked for.
+  /// Every bsdf of the scene can be asked for. Textures must be checkerboards.
   explicit BsdfProbe(Scene scene);
   ~BsdfProbe();
 
@@ -56,7 +57,8 @@ class BsdfProbe {
 
   Scene scene_;
   PackedMaterials materials_;
-  vulkan::Buffer rows_;
+  PackedTextures textures_;
+  vulkan::Buffer rows_, texture_rows_;
   std::vector<std::unique_ptr<ClassKernel>> kernels_;  // of each class, made on first use
 };
 

@@ -18,9 +18,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kFewestCounts = 5;
 constexpr double kPower = 0.99;
 
-struct GaussRule {
-  std::vector<double> nodes, weights;  // on [0, 1]
-};
+}  // namespace
 
 GaussRule gauss_legendre(int order) {
   GaussRule rule;
@@ -35,8 +33,6 @@ GaussRule gauss_legendre(int order) {
   }
   return rule;
 }
-
-}  // namespace
 
 double sidak(double level, int tests) {
   return -std::expm1(std::log1p(-level) / tests);

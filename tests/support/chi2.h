@@ -16,6 +16,11 @@ namespace tachylite::test {
 /// (Sidak).
 double sidak(double level, int tests);
 
+struct GaussRule {
+  std::vector<double> nodes, weights;  // on [0, 1]
+};
+GaussRule gauss_legendre(int order);
+
 struct Chi2Result {
   bool accepted = false;
   double statistic = 0, p_value = 0;

@@ -35,6 +35,12 @@ dvec3 flip_to(double cos_o, const dvec3& w) {
   return cos_o < 0 ? -w : w;
 }
 
+/// The plugin has no light pass where the back of the facet that mirrors wo to wi's mirror image does not face wi. This
+/// is not symmetric in wo and wi.
+bool hides_transmission(const dvec3& wo, const dvec3& wi) {
+  return glm::dot(wi, wo + dvec3(wi.x, wi.y, -wi.z)) >= 0;
+}
+
 }  // namespace
 
 std::optional<BsdfSample> sample_bsdf(const PrincipledThinBsdf& bsdf, const ShadingPoint& point,
@@ -52,6 +58,7 @@ std::optional<BsdfSample> sample_bsdf(const PrincipledThinBsdf& bsdf, const Shad
     wi = reflect(wo, p.transmitting().sample(wo, u));
     if (wi.z <= 0) return std::nullopt;
     wi.z = -wi.z;
+    if (hides_transmission(wo, wi)) return std::nullopt;
   } else {
     wi = sample_cosine_hemisphere(u);
     if (lobe >= 1 - p.p_diffuse_transmission) wi = -wi;
@@ -69,7 +76,8 @@ double pdf_bsdf(const PrincipledThinBsdf& bsdf, const ShadingPoint& point, const
   if (wi.z > 0) {
     return p.p_reflection * p.reflecting().pdf(wo, m) * jacobian + p.p_diffuse * pdf_cosine_hemisphere(wi.z);
   }
-  return p.p_transmission * p.transmitting().pdf(wo, m) * jacobian +
+  const double visible = hides_transmission(wo, wi) ? 0 : 1;
+  return visible * p.p_transmission * p.transmitting().pdf(wo, m) * jacobian +
          p.p_diffuse_transmission * pdf_cosine_hemisphere(-wi.z);
 }
 
@@ -84,7 +92,9 @@ dvec3 eval_bsdf(const PrincipledThinBsdf& bsdf, const ShadingPoint& point, const
 
   if (wi.z < 0) {
     const Microfacets transmitting = p.transmitting();
-    const double specular = p.spec_trans * (1 - f_d) * transmitting.d(m) * transmitting.g(wo, wi_mirrored, m);
+    const double visible = hides_transmission(wo, wi) ? 0 : 1;
+    const double specular =
+        visible * p.spec_trans * (1 - f_d) * transmitting.d(m) * transmitting.g(wo, wi_mirrored, m);
     const double diffuse = (1 - p.spec_trans) * p.diff_trans * -wi.z / kPi;
     return p.base_color * (specular / (4 * wo.z) + diffuse);
   }
