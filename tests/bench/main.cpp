@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "bench/lights.h"
+#include "bench/materials.h"
 #include "bench/media.h"
 #include "bench/paths.h"
 #include "bench/rays.h"
@@ -74,6 +75,23 @@ void print_sun(const std::vector<SunResult>& results, bool json) {
   }
 }
 
+void print_materials(const MaterialsResult& r, bool json) {
+  const auto print = [&](const MaterialResult& m) {
+    if (json)
+      fmt::print("{}{{\"name\": \"{}\", \"shade_ns\": {:.1f}, \"total_ns\": {:.1f}}}", &m == &r.single.front() ? "  " : ",\n  ",
+                 m.name, m.shade_ns, m.total_ns);
+    else
+      fmt::print("{:28} {:10.1f} {:10.1f}\n", m.name, m.shade_ns, m.total_ns);
+  };
+  if (json) fmt::print("{{\"materials\": [\n");
+  else fmt::print("{:28} {:>10} {:>10}\n", "material", "shading ns", "all ns");
+  for (const MaterialResult& m : r.single) print(m);
+  print(r.mixed);
+  const double ratio = r.mixed.total_ns / r.mean_of_its_parts_ns;
+  if (json) fmt::print("], \"mixed_over_parts\": {:.3f}}}\n", ratio);
+  else fmt::print("eight side by side over the mean of the eight alone: {:.3f}\n", ratio);
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Benchmarks of Tachylite's kernels");
   app.require_subcommand(1);
@@ -102,6 +120,11 @@ int run(int argc, char** argv) {
   lights->add_option("--repetitions", lights_repetitions, "renders of each measurement")->check(CLI::Range(2, 1000));
   lights->add_flag("--json", json);
 
+  CLI::App* materials = app.add_subcommand("materials", "device time of shading a vertex, by material");
+  int materials_repetitions = 5;
+  materials->add_option("--repetitions", materials_repetitions, "of each measurement")->check(CLI::Range(1, 1000));
+  materials->add_flag("--json", json);
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -112,6 +135,7 @@ int run(int argc, char** argv) {
   if (media->parsed()) print_media(bench_medium_gains(replicates), bench_medium_costs());
   if (lights->parsed() && sun) print_sun(bench_sun(lights_repetitions), json);
   if (lights->parsed() && !sun) print_lights(bench_lights(large, lights_repetitions), json);
+  if (materials->parsed()) print_materials(bench_materials(materials_repetitions), json);
   return 0;
 }
 
