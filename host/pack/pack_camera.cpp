@@ -17,7 +17,11 @@ void pack_camera(const Sensor& sensor, const glm::dvec3& centre, gpu::RenderPara
   camera.right = glm::vec4(glm::vec3(-axis(0)), 0);
   camera.up = glm::vec4(glm::vec3(axis(1)), 0);
   camera.forward = glm::vec4(glm::vec3(axis(2)), 0);
-  camera.position = glm::vec4(glm::vec3(glm::dvec3(sensor.to_world[3]) - centre), 1);
+  // Rays begin at near_clip of the camera's own space, which an orthographic to_world scales, but are far - near long
+  // in the world, as Mitsuba's.
+  const glm::dvec3 depth(sensor.to_world[2]);
+  const glm::dvec3 moved = orthographic ? sensor.near_clip * (depth - glm::normalize(depth)) : glm::dvec3(0);
+  camera.position = glm::vec4(glm::vec3(glm::dvec3(sensor.to_world[3]) + moved - centre), 1);
 
   // Film position in pixels of the full film (x right, y down) -> plane z = 1 (right, up).
   const double half_width = orthographic ? 1.0 : std::tan(0.5 * sensor.x_fov);

@@ -57,8 +57,10 @@ Ray sample_camera_ray(const Sensor& sensor, const dvec2& film_position, Random& 
   const double near = sensor.near_clip / direction.z, far = sensor.far_clip / direction.z;
   const dvec3 world_direction = transform_vector(sensor.to_world, direction);
   const double length = glm::length(world_direction);
+  // Mitsuba scales the near plane of an orthographic camera by to_world, but not the length of its rays.
+  const double unit = sensor.kind == Sensor::Kind::kOrthographic ? 1 : length;
   return {transform_point(sensor.to_world, origin + near * direction), world_direction / length,
-          (far - near) * length};
+          (far - near) * unit};
 }
 
 }  // namespace tachylite::reference
