@@ -3,6 +3,8 @@
 #include <unistd.h>
 #include <csignal>
 
+#include "base/atomic_file.h"
+
 namespace tachylite {
 namespace {
 
@@ -10,7 +12,10 @@ enum : int { kEndAtOnce, kNote, kNoted };
 volatile std::sig_atomic_t state = kEndAtOnce;
 
 void handle(int) {
-  if (state != kNote) _exit(kExitInterrupted);
+  if (state != kNote) {
+    unlink(unfinished_file());
+    _exit(kExitInterrupted);
+  }
   state = kNoted;
 }
 
@@ -23,6 +28,7 @@ void install_interrupt_handler() {
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of write()
 }
 
 InterruptScope::InterruptScope() {

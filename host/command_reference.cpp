@@ -14,7 +14,7 @@ namespace tachylite {
 
 int run_reference(const RenderArguments& arguments) {
   const Timer total;
-  const OutputFiles outputs = check_outputs(arguments.outputs, arguments.scene.file);
+  const OutputFiles outputs = render_outputs(arguments);
   if (!arguments.stats.empty()) check_writable(arguments.stats);
 
   const Scene scene = load_scene_of(arguments.scene);
@@ -29,6 +29,13 @@ int run_reference(const RenderArguments& arguments) {
   options.samples = wanted_samples(arguments, sensor);
   options.first_sample = arguments.first_sample;
   options.seed = arguments.seed.value_or(sensor.seed);
+  const RenderIdentity identity = render_identity(scene, options.sensor, options.seed, "reference", "CPU reference", "none");
+  std::optional<FilmBuffer> begun;
+  if (arguments.resume) {
+    const FilmBuffer empty = ReferenceRenderer(scene, options.sensor).image().film;
+    begun = begun_film(arguments, outputs, identity, empty, options.samples, 1);
+    options.begun = &*begun;
+  }
   if (arguments.time > 0) options.seconds = arguments.time;
   InterruptScope interrupt;
   ProgressDisplay display(arguments.quiet);
@@ -48,24 +55,18 @@ int run_reference(const RenderArguments& arguments) {
   const ReferenceImage result = render_reference(scene, options);
   display.finish();
 
-  FinishedRender finished;
-  finished.image = to_image(result, scene.integrator.moment);
+  FinishedRender finished{result.film, {}, identity, interrupt.requested()};
   RunStatistics& s = finished.statistics;
   s.device = {
       {"name", "CPU reference"}, {"type", "CPU"}, {"driver", fmt::format("{} threads", thread_count())}};
   s.spp = result.samples;
-  s.paths = result.samples * result.mean.size();
+  s.paths = (result.samples - (begun ? begun->samples() : 0)) * result.film.pixels();
   s.seconds.load = load_seconds;
   s.seconds.render = render_timer.seconds();
   s.closest_rays = result.closest_rays;
   s.shadow_rays = result.shadow_rays;
   s.nonfinite = result.nonfinite;
   s.triangles = count_triangles(scene);
-  finished.device = "CPU reference";
-  finished.driver = "none";
-  finished.seed = options.seed;
-  finished.relative_error = last.relative_error;
-  finished.interrupted = interrupt.requested();
   return write_render(arguments, outputs, finished, total);
 }
 

@@ -9,6 +9,7 @@
 #include "base/progress.h"
 #include "command_device.h"
 #include "command_interrupt.h"
+#include "vulkan/check.h"
 
 namespace tachylite {
 namespace {
@@ -84,15 +85,15 @@ int write_render(const RenderArguments& arguments, const OutputFiles& outputs, F
     return kExitInterrupted;
   }
   const Timer write_timer;
-  render.image.metadata = {{"scene", arguments.scene.file.string()},
-                           {"spp", fmt::format("{}", statistics.spp)},
-                           {"first_sample", fmt::format("{}", arguments.first_sample)},
-                           {"seed", fmt::format("{}", render.seed)},
-                           {"device", render.device},
-                           {"driver", render.driver},
-                           {"version", TACHYLITE_VERSION},
-                           {"seconds", fmt::format("{:.3f}", statistics.seconds.render)}};
-  write_outputs(outputs, render.image);
+  const bool exr = std::any_of(outputs.begin(), outputs.end(), [](const auto& file) { return file.extension() == ".exr"; });
+  Image image = render.film.to_image(exr && arguments.sums);
+  image.metadata.merge(render.identity);
+  image.metadata.merge(std::map<std::string, std::string>{
+      {"scene", arguments.scene.file.string()},
+      {"spp", fmt::format("{}", statistics.spp)},
+      {"first_sample", fmt::format("{}", render.film.ranges().front().first)},
+      {"seconds", fmt::format("{:.3f}", statistics.seconds.render)}});
+  write_outputs(outputs, image);
   statistics.seconds.write = write_timer.seconds();
   statistics.seconds.total = total.seconds();
   if (!arguments.stats.empty()) write_statistics(arguments.stats, statistics);
@@ -100,52 +101,100 @@ int write_render(const RenderArguments& arguments, const OutputFiles& outputs, F
   std::string line =
       fmt::format("{}{} samples in {} ({:.3g} Mpaths/s)", render.interrupted ? "interrupted after " : "",
                   statistics.spp, format_duration(statistics.seconds.render), statistics.mpaths_per_s());
-  if (render.relative_error > 0)
-    line += fmt::format(", relative error {:.2g} %", 100 * render.relative_error);
+  if (const double error = render.film.relative_error(); error > 0)
+    line += fmt::format(", relative error {:.2g} %", 100 * error);
   for (const std::filesystem::path& file : outputs) line += fmt::format(", {}", file.string());
   log_info(line);
   return render.interrupted ? kExitInterrupted : 0;
 }
 
+OutputFiles render_outputs(const RenderArguments& arguments) {
+  OutputFiles given = arguments.outputs;
+  if (given.empty() && arguments.resume && !arguments.resume->empty()) given.push_back(*arguments.resume);
+  return check_outputs(given, arguments.scene.file);
+}
+
+std::optional<FilmBuffer> begun_film(const RenderArguments& arguments, const OutputFiles& outputs,
+                                     const RenderIdentity& identity, const FilmBuffer& empty, uint64_t samples,
+                                     uint64_t block) {
+  if (!arguments.resume) return std::nullopt;
+  std::filesystem::path file = *arguments.resume;
+  for (const std::filesystem::path& output : outputs)
+    if (file.empty() && output.extension() == ".exr") file = output;
+  if (file.empty()) throw InputError("--resume: no .exr is named to go on with");
+  StoredFilm begun = read_film(file);
+  require_same_render(begun, identity, empty, "this render");
+  const SampleRange& range = begun.film.ranges().front();
+  const std::string has = fmt::format("{}: holds the samples {}", begun.place, format_ranges(begun.film.ranges()));
+  if (begun.film.ranges().size() > 1) throw InputError(has + ", which are not one run that could go on");
+  if (range.first != arguments.first_sample)
+    throw InputError(fmt::format("{}, but the first sample asked for is {} (--first-sample)", has, arguments.first_sample));
+  if (range.count > samples) throw InputError(fmt::format("{}, more than the {} asked for (--spp)", has, samples));
+  if (range.count < samples && range.count % block != 0)
+    throw InputError(fmt::format("{}: only a multiple of {} of them can go on", has, block));
+  FilmBuffer film = empty;  // with its order of channels
+  film.merge(begun.film);
+  return film;
+}
+
 int run_render(const RenderArguments& arguments) {
   // Refuse what cannot succeed before the long work begins.
   const Timer total;
-  const OutputFiles outputs = check_outputs(arguments.outputs, arguments.scene.file);
+  const OutputFiles outputs = render_outputs(arguments);
   if (!arguments.stats.empty()) check_writable(arguments.stats);
 
   const Scene scene = load_scene_of(arguments.scene);
   const double load_seconds = total.seconds();
   const Sensor& sensor = scene.sensors[static_cast<size_t>(arguments.scene.sensor)];
-  vulkan::Device device(device_options(arguments.device));
-  log_info(fmt::format("{}; on {}", summarize(scene, arguments.scene.sensor), describe(device.info())));
-  const PackedScene packed = pack_scene(scene, arguments.scene.sensor);
-
   RenderOptions options = render_options(arguments, sensor);
-  InterruptScope interrupt;
+  std::optional<InterruptScope> interrupt;  // from when there is something to be written
   ProgressDisplay display(arguments.quiet);
   options.progress = [&](const RenderProgress& progress) {
     display.update(limit_fraction({progress.fraction, progress.samples, progress.target_samples,
                                    progress.seconds, progress.mpaths_per_s, progress.relative_error},
                                   arguments));
-    return !interrupt.requested();
+    return !interrupt->requested();
   };
-  Renderer renderer(device, packed, options);
-  log_info(fmt::format("runs: {}", fmt::join(renderer.stages_run(), ", ")));
-  log_info(fmt::format("skipped: {}", fmt::join(renderer.stages_skipped(), ", ")));
-  const FilmBuffer film = renderer.render();
-  display.finish();
-  check_validation(device);
 
-  FinishedRender finished;
-  finished.image = film.to_image();
-  finished.statistics = statistics_of(device.info(), renderer, scene, packed);
-  finished.statistics.spp = film.samples();
+  std::optional<FilmBuffer> film;
+  std::optional<PackedScene> packed;
+  FinishedRender finished{.film = FilmBuffer(1, 1)};
+  const auto attempt = [&] {
+    vulkan::Device device(device_options(arguments.device));
+    if (!packed) {
+      log_info(fmt::format("{}; on {}", summarize(scene, arguments.scene.sensor), describe(device.info())));
+      packed = pack_scene(scene, arguments.scene.sensor);
+      const vulkan::DeviceInfo& info = device.info();
+      finished.identity = render_identity(scene, arguments.scene.sensor, options.seed,
+                                          options.sampler == SamplerKind::kSobol ? "sobol" : "independent", info.name,
+                                          fmt::format("{} {}", info.driver, info.driver_version));
+      film = Renderer::new_film(*packed);
+      if (std::optional<FilmBuffer> begun = begun_film(arguments, outputs, finished.identity, *film, options.samples,
+                                                       gpu::kBlockSamples))
+        film = std::move(begun);
+    }
+    Renderer renderer(device, *packed, options);
+    log_info(fmt::format("runs: {}", fmt::join(renderer.stages_run(), ", ")));
+    log_info(fmt::format("skipped: {}", fmt::join(renderer.stages_skipped(), ", ")));
+    if (!interrupt) interrupt.emplace();
+    renderer.render_into(*film);
+    display.finish();
+    check_validation(device);
+    finished.statistics = statistics_of(device.info(), renderer, scene, *packed);
+  };
+  try {
+    attempt();
+  } catch (const vulkan::DeviceLost& lost) {
+    display.finish();
+    log_warning(fmt::format("{}; trying once more{}", lost.what(),
+                            film ? fmt::format(", with the {} samples that there are", film->samples()) : ""));
+    attempt();
+  }
+
+  finished.film = std::move(*film);
+  finished.statistics.spp = finished.film.samples();
   finished.statistics.seconds.load = load_seconds;
-  finished.device = device.info().name;
-  finished.driver = fmt::format("{} {}", device.info().driver, device.info().driver_version);
-  finished.seed = options.seed;
-  finished.relative_error = film.relative_error();
-  finished.interrupted = interrupt.requested();
+  finished.interrupted = interrupt->requested();
   return write_render(arguments, outputs, finished, total);
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/progress.h"
+#include "command_film.h"
 #include "command_output.h"
 #include "command_scene.h"
 #include "command_stats.h"
@@ -20,6 +21,8 @@ struct RenderArguments {
   std::optional<uint64_t> samples;  // per pixel
   std::optional<uint32_t> seed;
   uint64_t first_sample = 0;
+  std::optional<std::filesystem::path> resume;  // a film to go on with; empty: that of the first .exr of `outputs`
+  bool sums = true;                             // .exr files hold what merging and resuming need
   double time = 0, error = 0;  // limits: seconds, relative standard error of the mean pixel; 0: none
   std::string device;
   SamplerKind sampler = SamplerKind::kSobol;
@@ -35,13 +38,21 @@ uint64_t wanted_samples(const RenderArguments& arguments, const Sensor& sensor);
 /// The fraction that counts is that of the nearest end: samples, time or error.
 ProgressFigures limit_fraction(ProgressFigures figures, const RenderArguments& arguments);
 
+/// Where images go, before anything is computed: --resume FILE without -o goes on in that file. Throws InputError.
+OutputFiles render_outputs(const RenderArguments& arguments);
+
+/// Where --resume is given: the film to go on with, to the samples [first_sample, first_sample + samples). `empty` is
+/// the film of this render, before its first sample; it can be continued at multiples of `block` samples. Throws
+/// InputError.
+std::optional<FilmBuffer> begun_film(const RenderArguments& arguments, const OutputFiles& outputs,
+                                     const RenderIdentity& identity, const FilmBuffer& empty, uint64_t samples,
+                                     uint64_t block);
+
 /// What a render came to.
 struct FinishedRender {
-  Image image;
-  RunStatistics statistics;    // all but the seconds of writing and in total
-  std::string device, driver;  // for the image's attributes
-  uint32_t seed = 0;
-  double relative_error = 0;  // 0: unknown
+  FilmBuffer film;
+  RunStatistics statistics;  // all but the seconds of writing and in total
+  RenderIdentity identity;   // for the image's attributes
   bool interrupted = false;
 };
 /// Writes images, with attributes of their making, and statistics, and says so. `total` runs since the start.

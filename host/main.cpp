@@ -1,5 +1,7 @@
 // The command line: options into the structs of the commands, exceptions into exit codes.
 
+#include <cerrno>
+#include <cstring>
 #include <limits>
 
 #include <fmt/format.h>
@@ -11,6 +13,7 @@
 #include "command_bench.h"
 #include "command_compare.h"
 #include "command_devices.h"
+#include "command_film.h"
 #include "command_info.h"
 #include "command_interrupt.h"
 #include "command_reference.h"
@@ -117,6 +120,10 @@ void add_render_options(CLI::App& command, RenderArguments& arguments, int& thre
                    ? std::string()
                    : fmt::format("{} is not a multiple of {}", text, gpu::kBlockSamples);
       });
+  command.add_option("--resume", arguments.resume, "goes on with the samples that FILE.exr has; the output, without FILE")
+      ->type_name("[FILE.exr]")
+      ->expected(0, 1);
+  command.add_flag("!--no-sums", arguments.sums, "leaves out what merge and --resume need: smaller files");
   command.add_option("--stats", arguments.stats, "where time, rays and memory went, as JSON")
       ->type_name("FILE.json");
   add_quiet_option(command, arguments.quiet);
@@ -216,6 +223,15 @@ int run(int argc, char** argv) {
   CLI::App& bench_command = *app.add_subcommand("bench", "error against time");
   add_bench_options(bench_command, bench, threads);
 
+  MergeArguments merge;
+  CLI::App& merge_command = *app.add_subcommand("merge", "joins renders of disjoint samples, bit for bit");
+  merge_command.add_option("inputs", merge.inputs)->required()->type_name("A.exr B.exr ...");
+  merge_command.add_option("-o,--output", merge.outputs, "image, .exr or .png; may be given several times")
+      ->required()
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  add_quiet_option(merge_command, merge.quiet);
+
   InfoArguments info;
   CLI::App& info_command = *app.add_subcommand("info", "what a scene holds and needs; renders nothing");
   add_scene_options(info_command, info.scene);
@@ -231,7 +247,7 @@ int run(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : kExitBadInput;
   }
 
-  set_log_quiet(render.quiet || reference.quiet || verify.quiet || bench.quiet);
+  set_log_quiet(render.quiet || reference.quiet || verify.quiet || merge.quiet || bench.quiet);
   set_thread_count(threads);
   install_interrupt_handler();
   if (render_command) return run_render(render);
@@ -239,6 +255,7 @@ int run(int argc, char** argv) {
   if (verify_command) return run_verify(verify);
   if (compare_command) return run_compare(compare);
   if (bench_command) return run_bench(bench);
+  if (merge_command) return run_merge(merge);
   if (info_command) return run_info(info);
   if (devices_command) return run_devices();
   return kExitBadInput;
@@ -249,7 +266,10 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return tachylite::run(argc, argv);
+    const int code = tachylite::run(argc, argv);
+    if (std::fflush(stdout) == 0) return code;
+    fmt::print(stderr, "cannot write to standard output: {}\n", std::strerror(errno));
+    return tachylite::kExitFailed;
   } catch (const tachylite::InputError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return tachylite::kExitBadInput;

@@ -11,4 +11,7 @@ namespace tachylite {
 void write_atomically(const std::filesystem::path& target,
                       const std::function<void(const std::filesystem::path&)>& write);
 
+/// The new file, while there is one; for signal handlers that remove it before they end the process.
+const char* unfinished_file();
+
 }  // namespace tachylite

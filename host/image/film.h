@@ -7,36 +7,53 @@
 #include <glm/glm.hpp>
 
 #include "image/image.h"
+#include "image/reproducible_sums.h"
 
 namespace tachylite {
 
-/// Sums of samples in double, pixel by pixel, in blocks of a few samples: what a render has so far.
-/// A block is a run of consecutive samples of a pixel; blocks are added in order of sample index.
+/// A run of samples of every pixel: [first, first + count).
+struct SampleRange {
+  uint64_t first = 0, count = 0;
+  uint64_t end() const { return first + count; }
+  bool operator==(const SampleRange&) const = default;
+};
+
+/// Sums of samples, pixel by pixel, in blocks of a few samples: what a render has so far. A block is a run of
+/// consecutive samples of a pixel. The sums do not depend on the order of blocks (image/reproducible_sums.h): films of
+/// disjoint samples merge into the film of all of them, bit for bit.
 class FilmBuffer {
  public:
-  FilmBuffer(int width, int height);
+  /// count_channel: of the image, the number of samples; empty: none.
+  FilmBuffer(int width, int height, std::vector<std::string> extra_channels = {}, std::string count_channel = {});
 
   int width() const { return width_; }
   int height() const { return height_; }
-  uint64_t samples() const { return samples_; }  // per pixel, of all finished blocks
+  size_t pixels() const { return static_cast<size_t>(width_) * static_cast<size_t>(height_); }
+  uint64_t samples() const;  // per pixel, of all finished blocks
+  const std::vector<SampleRange>& ranges() const { return ranges_; }  // sorted, not touching
+  uint64_t blocks() const { return blocks_; }
+  const std::vector<std::string>& extra_channels() const { return extra_names_; }
 
-  /// Adds to pixel `index` (row-major) a block whose `n` samples sum to `sum`.
+  /// Adds to pixel `index` (row-major) a block whose `n` samples sum to `sum`. Different pixels may be added to by
+  /// different threads.
   void add_block(size_t index, const glm::dvec3& sum, uint64_t n) {
-    sum_[index] += sum;
-    square_[index] += sum * sum / static_cast<double>(n);
+    for (glm::length_t c = 0; c < 3; ++c) {
+      sums_[static_cast<size_t>(c)].add(index, sum[c]);
+      squares_[static_cast<size_t>(c)].add(index, sum[c] * sum[c] / static_cast<double>(n));
+    }
   }
-  /// Extra channels (AOVs): sums of samples in double, no variance. count_name: of one more with the number of samples;
-  /// empty: none.
-  void set_extra_channels(std::vector<std::string> names, std::string count_name = "");
-  void add_extra(size_t index, size_t channel, double sum) { extra_[channel][index] += sum; }
+  /// Extra channels (AOVs): sums of samples, no variance.
+  void add_extra(size_t index, size_t channel, double sum) { extra_[channel].add(index, sum); }
 
-  /// To be called after each block has been added to every pixel.
-  void finish_block(uint64_t n) {
-    samples_ += n;
-    ++blocks_;
-  }
+  /// To be called after `blocks` blocks, which are the samples of `range`, have been added to every pixel. The range
+  /// is disjoint from those before.
+  void finish_blocks(const SampleRange& range, uint64_t blocks = 1);
 
-  glm::dvec3 mean(size_t index) const { return sum_[index] / static_cast<double>(samples_); }
+  /// Adds a film of other samples of the same pixels and channels (their order may differ).
+  void merge(const FilmBuffer& other);
+
+  glm::dvec3 mean(size_t index) const;
+  double extra_mean(size_t index, size_t channel) const;
   /// Variance of the mean from the scatter of the block means: (sum s_b^2/n_b - S^2/N) / (B - 1) / N. Unbiased for
   /// independent samples; for stratified ones (Owen-scrambled nets) an over-estimate. 0 with fewer than two blocks.
   glm::dvec3 variance_of_mean(size_t index) const;
@@ -45,16 +62,34 @@ class FilmBuffer {
   /// Estimated relative standard error of the mean pixel: sqrt(mean variance) / mean, of luminance. 0 if unknown.
   double relative_error() const;
 
-  /// R G B and, with two blocks or more, variance.R/G/B; then the extra channels.
-  Image to_image() const;
+  /// R G B and, with two blocks or more, variance.R/G/B; then the extra channels. With `sums` also all that merging
+  /// needs: word channels sums.NAME.0 to .3 and squares.NAME.0 to .3, and metadata sample_ranges and blocks.
+  Image to_image(bool sums = false) const;
+  /// The film that an image with sums was made of. Throws InputError, which begins with the place, where they lack or
+  /// are broken.
+  static FilmBuffer from_image(const Image& image, const std::string& place);
 
  private:
+  struct NamedSums {
+    std::string name;
+    ReproducibleSums* sums;
+  };
+  std::vector<NamedSums> all_sums();
+
   int width_, height_;
-  uint64_t samples_ = 0, blocks_ = 0;
-  std::vector<glm::dvec3> sum_, square_;
+  uint64_t blocks_ = 0;
+  std::vector<SampleRange> ranges_;
+  ReproducibleSums sums_[3], squares_[3];
   std::vector<std::string> extra_names_;
-  std::string count_name_;
-  std::vector<std::vector<double>> extra_;
+  std::vector<ReproducibleSums> extra_;
+  std::string count_channel_;
 };
+
+/// Layers of an image's word channels that hold a film's sums.
+constexpr const char* kSumsLayer = "sums.";
+constexpr const char* kSquaresLayer = "squares.";
+
+/// "0-15", "0-15,32-63": first and last sample of each.
+std::string format_ranges(const std::vector<SampleRange>& ranges);
 
 }  // namespace tachylite

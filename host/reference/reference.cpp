@@ -14,26 +14,23 @@ namespace tachylite {
 using namespace reference;
 
 struct ReferenceRenderer::Impl {
-  struct Pixel {
-    dvec3 sum{0}, sum_of_squares{0};
-    std::vector<double> aovs;
-  };
-
   Impl(const Scene& scene, int sensor_index, uint32_t seed_in, const std::vector<std::string>& aov_list)
       : world(scene),
         sensor(scene.sensors[static_cast<size_t>(sensor_index)]),
         seed(seed_in),
-        aovs(aov_list) {
-    const Film& film = sensor.film;
-    pixels.resize(static_cast<size_t>(film.crop_width) * static_cast<size_t>(film.crop_height));
-    for (Pixel& pixel : pixels) pixel.aovs.resize(aovs.channel_names().size());
+        aovs(aov_list),
+        film(sensor.film.crop_width, sensor.film.crop_height, extra_channels(), aovs.sample_count_channel()) {}
+
+  std::vector<std::string> extra_channels() const {
+    std::vector<std::string> names = aovs.channel_names();
+    if (world.scene.integrator.moment) names.insert(names.end(), {"m2_R", "m2_G", "m2_B"});
+    return names;
   }
 
   void add_sample(size_t index, uint64_t sample, World::Counters& counters, uint64_t& dropped) {
-    const Film& film = sensor.film;
-    const int x = static_cast<int>(index) % film.crop_width, y = static_cast<int>(index) / film.crop_width;
+    const int x = static_cast<int>(index) % film.width(), y = static_cast<int>(index) / film.width();
     Random random(seed, index, sample);
-    const Ray ray = sample_camera_ray(sensor, sample_film_position(film, x, y, random), random);
+    const Ray ray = sample_camera_ray(sensor, sample_film_position(sensor.film, x, y, random), random);
     const Integrator::Kind kind = world.scene.integrator.kind;
     const bool surfaces_only = kind == Integrator::Kind::kDirect || kind == Integrator::Kind::kPath;
     dvec3 radiance = surfaces_only ? trace_path(world, ray, random, counters)
@@ -42,29 +39,20 @@ struct ReferenceRenderer::Impl {
       radiance = dvec3(0);
       ++dropped;
     }
-    Pixel& pixel = pixels[index];
-    pixel.sum += radiance;
-    pixel.sum_of_squares += radiance * radiance;
+    film.add_block(index, radiance, 1);
 
     std::vector<double> values;
     aovs.evaluate(world, ray, values);
-    for (size_t i = 0; i < values.size(); ++i) pixel.aovs[i] += values[i];
-  }
-
-  /// Of the mean; from the sums of squares, unbiased.
-  dvec3 variance(const Pixel& pixel) const {
-    if (samples < 2) return dvec3(0);
-    const double n = static_cast<double>(samples);
-    const dvec3 mean = pixel.sum / n;
-    return glm::max(dvec3(0), pixel.sum_of_squares / n - mean * mean) / (n - 1);
+    if (world.scene.integrator.moment)
+      for (int c = 0; c < 3; ++c) values.push_back(sqr(radiance[c]));
+    for (size_t i = 0; i < values.size(); ++i) film.add_extra(index, i, values[i]);
   }
 
   World world;
   const Sensor& sensor;
   uint32_t seed;
   Aovs aovs;
-  std::vector<Pixel> pixels;
-  uint64_t samples = 0;
+  FilmBuffer film;
   std::atomic<uint64_t> nonfinite{0}, closest_rays{0}, shadow_rays{0};
 };
 
@@ -83,7 +71,7 @@ ReferenceRenderer::~ReferenceRenderer() = default;
 void ReferenceRenderer::add_samples(uint64_t first, uint64_t count) {
   Impl& impl = *impl_;
   constexpr size_t kPixelsAtOnce = 64;
-  parallel_for(0, impl.pixels.size(), kPixelsAtOnce, [&](size_t begin, size_t end) {
+  parallel_for(0, impl.film.pixels(), kPixelsAtOnce, [&](size_t begin, size_t end) {
     World::Counters counters;
     uint64_t dropped = 0;
     for (size_t pixel = begin; pixel < end; ++pixel) {
@@ -93,24 +81,27 @@ void ReferenceRenderer::add_samples(uint64_t first, uint64_t count) {
     impl.closest_rays += counters.closest_rays;
     impl.shadow_rays += counters.shadow_rays;
   });
-  impl.samples += count;
+  impl.film.finish_blocks({first, count}, count);
 }
+
+void ReferenceRenderer::add_film(const FilmBuffer& film) { impl_->film.merge(film); }
 
 ReferenceImage ReferenceRenderer::image() const {
   const Impl& impl = *impl_;
-  ReferenceImage image;
-  image.width = impl.sensor.film.crop_width;
-  image.height = impl.sensor.film.crop_height;
-  image.samples = impl.samples;
-  for (const std::string& name : impl.aovs.channel_names()) image.aovs.push_back({name, {}});
-  const double n = static_cast<double>(std::max<uint64_t>(impl.samples, 1));
-  for (const Impl::Pixel& pixel : impl.pixels) {
-    image.mean.push_back(pixel.sum / n);
-    image.variance.push_back(impl.variance(pixel));
-    for (size_t i = 0; i < image.aovs.size(); ++i) image.aovs[i].values.push_back(pixel.aovs[i] / n);
+  ReferenceImage image{.film = impl.film};
+  image.width = impl.film.width();
+  image.height = impl.film.height();
+  image.samples = impl.film.samples();
+  for (size_t i = 0; i < impl.film.pixels(); ++i) {
+    image.mean.push_back(impl.film.mean(i));
+    image.variance.push_back(impl.film.variance_of_mean(i));
+  }
+  for (size_t c = 0; c < impl.film.extra_channels().size(); ++c) {
+    image.aovs.push_back({impl.film.extra_channels()[c], {}});
+    for (size_t i = 0; i < impl.film.pixels(); ++i) image.aovs[c].values.push_back(impl.film.extra_mean(i, c));
   }
   if (const std::string& name = impl.aovs.sample_count_channel(); !name.empty())
-    image.aovs.push_back({name, std::vector<double>(impl.pixels.size(), static_cast<double>(impl.samples))});
+    image.aovs.push_back({name, std::vector<double>(impl.film.pixels(), static_cast<double>(image.samples))});
   image.nonfinite = impl.nonfinite;
   image.closest_rays = impl.closest_rays;
   image.shadow_rays = impl.shadow_rays;
@@ -118,17 +109,7 @@ ReferenceImage ReferenceRenderer::image() const {
 }
 
 double ReferenceRenderer::relative_error() const {
-  const Impl& impl = *impl_;
-  if (impl.samples < 2) return kInfinity;
-  double variance = 0, mean = 0;
-  for (const Impl::Pixel& pixel : impl.pixels) {
-    variance += luminance(impl.variance(pixel));
-    mean += luminance(pixel.sum);
-  }
-  const double pixels = static_cast<double>(impl.pixels.size());
-  mean /= pixels * static_cast<double>(impl.samples);
-  if (!(mean > 0)) return variance > 0 ? kInfinity : 0;
-  return std::sqrt(variance / pixels) / mean;
+  return impl_->film.has_variance() ? impl_->film.relative_error() : kInfinity;
 }
 
 ReferenceImage render_reference(const Scene& scene, const ReferenceOptions& options) {
@@ -138,37 +119,23 @@ ReferenceImage render_reference(const Scene& scene, const ReferenceOptions& opti
   const uint64_t wanted =
       options.samples > 0 ? options.samples : static_cast<uint64_t>(std::max(1, sensor.sample_count));
   uint64_t done = 0;
+  if (options.begun) {
+    renderer.add_film(*options.begun);
+    done = options.begun->samples();
+  }
+  constexpr double kLongPass = 1;  // s; passes of one sample are interrupted sooner
+  double pass_seconds = 0;
   while (done < wanted && timer.seconds() < options.seconds) {
-    const uint64_t pass = std::min<uint64_t>(4, wanted - done);
+    const uint64_t pass = std::min<uint64_t>(pass_seconds > kLongPass ? 1 : 4, wanted - done);
+    const Timer pass_timer;
     renderer.add_samples(options.first_sample + done, pass);
+    pass_seconds = pass_timer.seconds();
     done += pass;
     if (options.progress && !options.progress({done, wanted, timer.seconds(), renderer.relative_error()})) {
       break;
     }
   }
   return renderer.image();
-}
-
-Image to_image(const ReferenceImage& reference, bool moment) {
-  Image image;
-  image.width = reference.width;
-  image.height = reference.height;
-  const auto add = [&](const std::string& name, const auto& value) {
-    std::vector<float>& channel = image.add(name);
-    for (size_t i = 0; i < channel.size(); ++i) channel[i] = static_cast<float>(value(i));
-  };
-  const double n = static_cast<double>(reference.samples);
-  for (int c = 0; c < 3; ++c) {
-    const std::string name(1, "RGB"[c]);
-    const auto& mean = reference.mean;
-    const auto& variance = reference.variance;
-    add(name, [&](size_t i) { return mean[i][c]; });
-    add("variance." + name, [&](size_t i) { return variance[i][c]; });
-    if (moment) add("m2_" + name, [&](size_t i) { return variance[i][c] * (n - 1) + sqr(mean[i][c]); });
-  }
-  for (const ReferenceImage::Channel& aov : reference.aovs)
-    add(aov.name, [&](size_t i) { return aov.values[i]; });
-  return image;
 }
 
 }  // namespace tachylite

@@ -14,13 +14,14 @@
 
 #include <glm/glm.hpp>
 
-#include "image/image.h"
+#include "image/film.h"
 #include "scene/scene.h"
 
 namespace tachylite {
 
-/// A result of the reference. Pixels are row by row from the top of the crop window, linear Rec.709.
+/// A result of the reference, and the film that it is a view of. Pixels are row by row from the top of the crop window, linear Rec.709.
 struct ReferenceImage {
+  FilmBuffer film;
   int width = 0, height = 0;
   uint64_t samples = 0;              // per pixel
   std::vector<glm::dvec3> mean;      // radiance
@@ -29,7 +30,8 @@ struct ReferenceImage {
     std::string name;  // "albedo.R", ...
     std::vector<double> values;
   };
-  std::vector<Channel> aovs;  // mean over samples of the first hit's value, 0 where nothing was hit
+  std::vector<Channel> aovs;  // mean over samples of the first hit's value, 0 where nothing was hit; and where the
+                              // scene's integrator is `moment`, m2_R/G/B: mean square of a sample
   uint64_t nonfinite = 0;     // samples dropped (counted as 0)
   uint64_t closest_rays = 0, shadow_rays = 0;
 };
@@ -46,6 +48,8 @@ class ReferenceRenderer {
 
   /// Adds the samples [first, first + count) to every pixel, on all threads of base/parallel.h.
   void add_samples(uint64_t first, uint64_t count);
+  /// Adds those of a film of this scene, sensor, seed and AOVs.
+  void add_film(const FilmBuffer& film);
   ReferenceImage image() const;
   /// Estimated standard error of the pixels' mean relative to the mean radiance: sqrt(mean variance) / mean.
   double relative_error() const;
@@ -64,6 +68,7 @@ struct ReferenceOptions {
   int sensor = 0;
   uint64_t samples = 0;  // 0: the sensor's sample_count
   uint64_t first_sample = 0;
+  const FilmBuffer* begun = nullptr;  // the samples from first_sample on that there are already
   uint32_t seed = 0;
   double seconds = std::numeric_limits<double>::infinity();  // no pass begins after this wall-clock time
   std::vector<std::string> aovs;
@@ -73,8 +78,7 @@ struct ReferenceOptions {
 /// Renders in passes of a few samples until all are done, time is up, or `progress` ends it.
 ReferenceImage render_reference(const Scene& scene, const ReferenceOptions& options);
 
-/// Channels R G B, variance.R/G/B, m2_R/G/B (mean square of a sample, where the scene's integrator is
-/// `moment`), and the AOVs.
-Image to_image(const ReferenceImage& image, bool moment = false);
+/// Channels R G B, variance.R/G/B, and the AOVs.
+inline Image to_image(const ReferenceImage& image) { return image.film.to_image(); }
 
 }  // namespace tachylite

@@ -323,7 +323,9 @@ struct Integrator {
 };
 
 struct Scene {
-  std::string path;  // of the file that was loaded
+  std::string path;               // of the file that was loaded
+  std::string description;        // fingerprint of the XML, with values of $names
+  std::vector<std::string> files;  // that it refers to, in its order
   Integrator integrator;
   std::vector<Sensor> sensors;
   std::vector<Texture> textures;

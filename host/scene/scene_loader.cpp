@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/fingerprint.h"
 #include "base/log.h"
 #include "base/parallel.h"
 #include "scene/check_scene.h"
@@ -11,11 +12,29 @@
 #include "scene/plugin.h"
 
 namespace tachylite {
+namespace {
+
+/// All but how many samples are taken.
+void add_node(Fingerprint& fingerprint, const XmlNode& node) {
+  if (node.name() == "sample_count") return;
+  fingerprint.add(node.tag);
+  for (const auto& [name, value] : node.attributes) {
+    fingerprint.add(name);
+    fingerprint.add(value);
+  }
+  fingerprint.add(std::to_string(node.children.size()));
+  for (const XmlNode& child : node.children) add_node(fingerprint, child);
+}
+
+}  // namespace
 
 SceneLoader::SceneLoader(XmlTree tree, const LoadOptions& options)
     : tree_(std::move(tree)), permissive_(options.permissive) {
   scene.path = *tree_.root.where.file;
   folder_ = std::filesystem::path(scene.path).parent_path();
+  Fingerprint fingerprint;
+  add_node(fingerprint, tree_.root);
+  scene.description = fingerprint.text();
   note_ids(tree_.root);
 }
 
@@ -107,14 +126,17 @@ void SceneLoader::refuse(const FileLocation& where, const std::string& message) 
   log_warning(fmt::format("{}: {}; ignored", where.str(), message));
 }
 
-std::filesystem::path SceneLoader::find_file(const XmlNode& node, const std::string& name) const {
+std::filesystem::path SceneLoader::find_file(const XmlNode& node, const std::string& name) {
   std::vector<std::filesystem::path> folders = tree_.search_folders;
   folders.push_back(folder_);
   folders.push_back(std::filesystem::path(*node.where.file).parent_path());
   if (std::filesystem::path(name).is_absolute()) folders = {""};
   std::error_code failed;
   for (const auto& folder : folders)
-    if (std::filesystem::is_regular_file(folder / name, failed)) return folder / name;
+    if (std::filesystem::is_regular_file(folder / name, failed)) {
+      scene.files.push_back((folder / name).string());
+      return folder / name;
+    }
   throw InputError(node.where, fmt::format("the file \"{}\" does not exist", name));
 }
 

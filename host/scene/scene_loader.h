@@ -25,7 +25,7 @@ class SceneLoader {
   void refuse(const FileLocation& where, const std::string& message) const;
 
   /// The file that a parameter of `node` names; throws when it does not exist.
-  std::filesystem::path find_file(const XmlNode& node, const std::string& name) const;
+  std::filesystem::path find_file(const XmlNode& node, const std::string& name);
 
   /// `node` itself, or what it refers to when it is a <ref>.
   const XmlNode& resolve(const XmlNode& node) const;

@@ -40,7 +40,9 @@ const char* result_name(VkResult result) {
 
 void check(VkResult result, const char* call) {
   if (result == VK_SUCCESS) return;
-  throw RenderError(fmt::format("{} failed: {} ({})", call, result_name(result), static_cast<int>(result)));
+  const std::string message = fmt::format("{} failed: {} ({})", call, result_name(result), static_cast<int>(result));
+  if (result == VK_ERROR_DEVICE_LOST) throw DeviceLost(message);
+  throw RenderError(message);
 }
 
 }  // namespace tachylite::vulkan

@@ -17,7 +17,7 @@ class PassSums {
 
   /// film, aov: the device's blocks after `wave`; aov may be null.
   void take(const gpu::WaveParams& wave, const glm::vec4* film, const glm::vec4* aov);
-  /// Adds block `block` of the pass, which has n samples a pixel. Does not finish the film's block.
+  /// Adds block `block` of the pass, which has n samples a pixel. Does not finish the film's blocks.
   void add_block_to(FilmBuffer& film, uint32_t block, uint64_t n) const;
 
  private:

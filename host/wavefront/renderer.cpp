@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/check.h"
 #include "base/error.h"
 #include "base/timer.h"
 #include "shared/bindings.h"
@@ -22,7 +23,8 @@ using vulkan::Buffer;
 constexpr uint32_t kTilePixels = gpu::kTileSize * gpu::kTileSize;
 constexpr uint32_t kFusedPaths = 1u << 24;  // of one dispatch that follows whole paths: about a second
 constexpr uint32_t kFusedBlocks = 8;
-constexpr uint32_t kBouncesPerSubmit = 16;  // between two looks at the queue's length
+constexpr uint32_t kBouncesPerSubmit = 16;  // between two looks at the queue's length; fewer where they take longer
+constexpr double kLongestSubmission = 0.3;  // seconds
 
 // Paths in flight: whole tiles of whole blocks, no more than the render has.
 uint32_t capacity_for(const gpu::RenderParams& params, const RenderOptions& options) {
@@ -77,6 +79,8 @@ struct Renderer::Impl {
   std::optional<BakedGeometry> baked;  // one kernel for whole paths
   gpu::RenderParams params;
   uint32_t capacity = 0;
+  uint32_t bounces_per_submit = kBouncesPerSubmit;
+  uint64_t begun_samples = 0;  // that the film had before
   WaveSize size;
   RenderStatistics statistics;
   std::vector<Buffer> buffers;
@@ -88,7 +92,9 @@ struct Renderer::Impl {
   vulkan::Commands commands;
 
   Impl(vulkan::Device& d, const PackedScene& s, const RenderOptions& o);
-  void render_wave(WaveParams wave);
+  /// False where `goes_on`, which is asked now and then, said so: the wave is abandoned.
+  bool render_wave(WaveParams wave, const std::function<bool()>& goes_on);
+  void finish(const FilmBuffer& film, const Timer& timer);
   void record_bounce(WaveParams& wave);
   void dispatch_pixels(const Kernels::Pointer& kernel, const WaveParams& wave);
   void warm_up();
@@ -211,13 +217,13 @@ void Renderer::Impl::record_bounce(WaveParams& wave) {
   queue_dispatch(kernels.intersect_shadow, gpu::kDispatchShadow);
 }
 
-void Renderer::Impl::render_wave(WaveParams wave) {
+bool Renderer::Impl::render_wave(WaveParams wave, const std::function<bool()>& goes_on) {
   if (baked) {
     commands.dispatch(*kernels.follow_paths, (wave.pixel_count + gpu::kWorkgroupSize - 1) / gpu::kWorkgroupSize, &wave,
                       sizeof(wave));
     commands.submit_and_wait();
     take_counters();
-    return;
+    return true;
   }
   const uint32_t paths = wave.pixel_count * wave.block_count * kBlockSamples;
   const uint32_t groups = (paths + gpu::kWorkgroupSize - 1) / gpu::kWorkgroupSize;
@@ -228,10 +234,14 @@ void Renderer::Impl::render_wave(WaveParams wave) {
   commands.dispatch(*kernels.prepare_dispatch, 1, &wave, sizeof(wave));
   const uint64_t end = last_bounce();
   while (wave.bounce < end) {
-    const uint64_t until = std::min<uint64_t>(end, wave.bounce + kBouncesPerSubmit);
+    const uint64_t until = std::min<uint64_t>(end, wave.bounce + bounces_per_submit);
     while (wave.bounce < until) record_bounce(wave);
     if (wave.bounce >= end) break;
+    const Timer submission;
     commands.submit_and_wait();
+    bounces_per_submit = submission.seconds() > kLongestSubmission ? std::max(bounces_per_submit / 2, 1u)
+                                                                   : std::min(bounces_per_submit + 1, kBouncesPerSubmit);
+    if (!goes_on()) return false;
     const auto* words = static_cast<const uint32_t*>(counters->mapped());
     if (words[gpu::kCounterQueue + wave.ray_queue] == 0) break;
   }
@@ -239,6 +249,7 @@ void Renderer::Impl::render_wave(WaveParams wave) {
   dispatch_pixels(kernels.write_film, wave);
   commands.submit_and_wait();
   take_counters();
+  return true;
 }
 
 void Renderer::Impl::take_counters() {
@@ -247,10 +258,15 @@ void Renderer::Impl::take_counters() {
   statistics.shadow_rays += words[gpu::kCounterShadowTotal];
   statistics.nonfinite += words[gpu::kCounterNonfinite];
   statistics.overflow += words[gpu::kCounterOverflow];
-  for (uint32_t w = gpu::kCounterClosestTotal; w <= gpu::kCounterOverflow; ++w) words[w] = 0;
+  const uint32_t unfinished = words[gpu::kCounterUnfinished];
+  for (uint32_t w = gpu::kCounterClosestTotal; w <= gpu::kCounterUnfinished; ++w) words[w] = 0;
+  if (unfinished > 0)
+    throw RenderError(fmt::format("{} ended the loops of {} lanes before their rays were traced to the end: the scene "
+                                  "has rays of too many steps, or paths of too many bounces, for this driver",
+                                  device.info().driver, unfinished));
 }
 
-Renderer::Renderer(vulkan::Device& device, const PackedScene& scene, const RenderOptions& options) {
+Renderer::Renderer(vulkan::Device& device, const PackedScene& scene, const RenderOptions& options) : scene_(scene) {
   if (options.first_sample % kBlockSamples != 0)
     throw InputError(fmt::format("--first-sample must be a multiple of {}", kBlockSamples));
   if (options.samples == 0 || options.first_sample + options.samples > (uint64_t{1} << 24))
@@ -268,7 +284,12 @@ Renderer::Renderer(vulkan::Device& device, const PackedScene& scene, const Rende
 
 Renderer::~Renderer() = default;
 
-FilmBuffer Renderer::render() {
+FilmBuffer Renderer::new_film(const PackedScene& scene) {
+  return FilmBuffer(static_cast<int>(scene.params.width), static_cast<int>(scene.params.height),
+                    PassSums(scene.params, 0, scene).extra_channels(), scene.sample_count_channel);
+}
+
+void Renderer::render_into(FilmBuffer& film) {
   Impl& r = *impl_;
   const gpu::RenderParams& params = r.params;
   const WaveSize size = r.size;
@@ -276,60 +297,63 @@ FilmBuffer Renderer::render() {
   const uint64_t first_block = r.options.first_sample / kBlockSamples;
   const uint64_t end_sample = r.options.first_sample + r.options.samples;
   const uint64_t end_block = (end_sample + kBlockSamples - 1) / kBlockSamples;
+  CHECK(film.samples() == 0 || film.ranges() == (std::vector<SampleRange>{{r.options.first_sample, film.samples()}}));
+  CHECK(film.samples() % kBlockSamples == 0 || film.samples() == r.options.samples);
 
-  FilmBuffer film(static_cast<int>(params.width), static_cast<int>(params.height));
   PassSums sums(params, size.blocks, r.scene);
-  film.set_extra_channels(sums.extra_channels(), r.scene.sample_count_channel);
   Timer timer;
-  double relative_error = 0;
+  RenderProgress progress;
+  progress.target_samples = r.options.samples;
   uint64_t estimated_samples = 0;
-  bool stop = false, interrupted = false;
-  for (uint64_t block = first_block; block < end_block && !stop && !interrupted;) {
+  r.begun_samples = film.samples();
+  bool stop = film.samples() >= r.options.samples;
+  for (uint64_t block = first_block + film.samples() / kBlockSamples; block < end_block && !stop;) {
     // One pass: a few blocks of samples for all pixels.
     WaveParams wave{};
     wave.first_block = static_cast<uint32_t>(block);
     wave.block_count = static_cast<uint32_t>(std::min<uint64_t>(size.blocks, end_block - block));
-    for (uint32_t pixel = 0; pixel < all_pixels && !stop; pixel += size.pixels) {
-      wave.first_pixel = pixel;
-      wave.pixel_count = std::min(size.pixels, all_pixels - pixel);
-      r.render_wave(wave);
-      sums.take(wave, static_cast<const glm::vec4*>(r.film_block->mapped()),
-                r.aov_block ? static_cast<const glm::vec4*>(r.aov_block->mapped()) : nullptr);
-      r.statistics.paths += uint64_t{wave.pixel_count} * wave.block_count * kBlockSamples;
-
-      RenderProgress progress;
-      const double pass = static_cast<double>(pixel + wave.pixel_count) / all_pixels;
+    const auto goes_on = [&](uint32_t pixels_done) {
+      const double pass = static_cast<double>(pixels_done) / all_pixels;
       progress.samples = film.samples();
-      progress.target_samples = r.options.samples;
       progress.seconds = timer.seconds();
-      progress.relative_error = relative_error;
       progress.fraction = (static_cast<double>(block - first_block) + pass * wave.block_count) /
                           static_cast<double>(end_block - first_block);
       progress.mpaths_per_s = static_cast<double>(r.statistics.paths) * 1e-6 / progress.seconds;
-      interrupted = interrupted || (r.options.progress && !r.options.progress(progress));
-      stop = interrupted && pixel + size.pixels < all_pixels;
+      return !r.options.progress || r.options.progress(progress);
+    };
+    for (uint32_t pixel = 0; pixel < all_pixels && !stop; pixel += size.pixels) {
+      wave.first_pixel = pixel;
+      wave.pixel_count = std::min(size.pixels, all_pixels - pixel);
+      if (!r.render_wave(wave, [&] { return goes_on(pixel); })) return r.finish(film, timer);
+      sums.take(wave, static_cast<const glm::vec4*>(r.film_block->mapped()),
+                r.aov_block ? static_cast<const glm::vec4*>(r.aov_block->mapped()) : nullptr);
+      r.statistics.paths += uint64_t{wave.pixel_count} * wave.block_count * kBlockSamples;
+      stop = !goes_on(pixel + wave.pixel_count);
+      if (stop && pixel + wave.pixel_count < all_pixels) return r.finish(film, timer);
     }
-    if (stop) break;
 
-    // Add the pass to the film, in double.
+    // Add the pass to the film.
     for (uint32_t b = 0; b < wave.block_count; ++b) {
-      const uint64_t n = std::min<uint64_t>(kBlockSamples, end_sample - (block + b) * kBlockSamples);
+      const uint64_t first = (block + b) * kBlockSamples, n = std::min<uint64_t>(kBlockSamples, end_sample - first);
       sums.add_block_to(film, b, n);
-      film.finish_block(n);
+      film.finish_blocks({first, n});
     }
     block += wave.block_count;
     if (r.options.time_limit > 0 && timer.seconds() >= r.options.time_limit) stop = true;
     // The estimate reads the whole film: anew where it decides, else when the samples have grown by a half.
     if (film.has_variance() && (r.options.error_limit > 0 || 2 * film.samples() >= 3 * estimated_samples)) {
-      relative_error = film.relative_error();
+      progress.relative_error = film.relative_error();
       estimated_samples = film.samples();
-      stop = stop || (r.options.error_limit > 0 && relative_error <= r.options.error_limit);
+      stop = stop || (r.options.error_limit > 0 && progress.relative_error <= r.options.error_limit);
     }
   }
-  r.statistics.render_seconds = timer.seconds();
-  r.statistics.kernels = r.commands.kernel_times();
-  r.statistics.paths = uint64_t{params.width} * params.height * film.samples();
-  return film;
+  r.finish(film, timer);
+}
+
+void Renderer::Impl::finish(const FilmBuffer& film, const Timer& timer) {
+  statistics.render_seconds = timer.seconds();
+  statistics.kernels = commands.kernel_times();
+  statistics.paths = uint64_t{film.pixels()} * (film.samples() - begun_samples);
 }
 
 const RenderStatistics& Renderer::statistics() const { return impl_->statistics; }

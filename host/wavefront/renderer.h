@@ -37,7 +37,7 @@ struct RenderOptions {
   double time_limit = 0;        // seconds of rendering; 0: none. At least one block is rendered.
   double error_limit = 0;       // FilmBuffer::relative_error() to reach; 0: none
   bool timing = false;          // timestamp queries around each kernel
-  /// Called now and then; returning false stops after the blocks that are finished.
+  /// Called now and then, also within a pass over the image; returning false stops with the passes that are finished.
   std::function<bool(const RenderProgress&)> progress;
 };
 
@@ -67,8 +67,16 @@ class Renderer {
   Renderer(vulkan::Device& device, const PackedScene& scene, const RenderOptions& options);
   ~Renderer();
 
-  /// Renders until samples, time, error or the caller say stop; the image does not depend on max_paths.
-  FilmBuffer render();
+  /// Adds to the film, which holds the samples [first_sample, first_sample + n) or none, until samples, time, error or
+  /// the caller say stop. After an exception it holds the passes before: another renderer may go on with it. The image
+  /// does not depend on max_paths.
+  void render_into(FilmBuffer& film);
+  static FilmBuffer new_film(const PackedScene& scene);
+  FilmBuffer render() {
+    FilmBuffer film = new_film(scene_);
+    render_into(film);
+    return film;
+  }
 
   const RenderStatistics& statistics() const;
   /// Stages that run for this scene, and those that it does not need.
@@ -79,6 +87,7 @@ class Renderer {
 
  private:
   struct Impl;
+  const PackedScene& scene_;
   std::unique_ptr<Impl> impl_;
 };
 

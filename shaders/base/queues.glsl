@@ -67,6 +67,11 @@ void add_radiance(uint slot, vec3 value) {
   }
 }
 
+// The host fails on it.
+void report_unfinished(bool unfinished) {
+  if (unfinished) atomicAdd(counters[kCounterUnfinished], 1u);
+}
+
 // Adds counts of a lane to those of the wave.
 void count_rays(uint closest, uint shadow, uint nonfinite) {
   uint closest_sum = subgroupAdd(closest), shadow_sum = subgroupAdd(shadow), nonfinite_sum = subgroupAdd(nonfinite);

@@ -149,11 +149,16 @@ void step_traversal(inout Traversal s, const bool any) {
   }
 }
 
+// Whether a loop of this lane ended before its rays did: Mesa 22.3.6 ends all loops of an invocation after 65535
+// iterations. The kernel reports it (base/queues.glsl).
+bool rays_unfinished = false;
+
 // Closest hit, or with `any` some hit, of one ray a lane.
 TraceHit trace_ray(TraceRay ray, const bool any) {
   Traversal s = begin_traversal(ray);
   do step_traversal(s, any);
   while (is_traversing(s));
+  rays_unfinished = rays_unfinished || is_traversing(s);
   return s.hit;
 }
 

@@ -51,6 +51,7 @@ void trace_rays(uint count, const bool any) {
     } while (idle_lanes < enough);
   } while (next < end || idle_lanes < gl_SubgroupSize);
   if (ray != kNoHit) store_hit(ray, s.hit);
+  rays_unfinished = rays_unfinished || next < end || is_traversing(s);
 }
 
 #endif

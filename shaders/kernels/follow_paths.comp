@@ -132,5 +132,6 @@ void main() {
       edges = 1u;
     }
   }
+  report_unfinished(going);
   count_rays(closest_rays, shadow_rays, nonfinite);
 }

@@ -52,6 +52,7 @@ void store_hit(uint i, TraceHit hit) {
 void main() {
   uint count = queue_length(wave.ray_queue);
   trace_rays(count, false);
+  report_unfinished(rays_unfinished);
   if (has_media()) return;  // sample_medium sorts
 
   // All lanes again have a ray each, in the order of the queue.

@@ -20,4 +20,7 @@ void store_hit(uint i, TraceHit hit) {
 
 #include "geometry/trace_rays.glsl"
 
-void main() { trace_rays(counters[kCounterShadowRays], true); }
+void main() {
+  trace_rays(counters[kCounterShadowRays], true);
+  report_unfinished(rays_unfinished);
+}

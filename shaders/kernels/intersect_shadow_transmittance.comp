@@ -66,6 +66,7 @@ void main() {
       going = false;
     }
   }
+  report_unfinished(rays_unfinished || going);
   if (overflow) atomicAdd(counters[kCounterOverflow], 1u);
   if (transmittance != vec3(0.0)) add_radiance(slot, c.xyz * transmittance * xexp(-depth));
 }

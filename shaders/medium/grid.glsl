@@ -142,7 +142,7 @@ FreeFlight fly_grid(uint medium, vec3 o, vec3 d, float tmax, vec3 beta, WalkRand
     flight.collides = collides;
     going = within && !collides && steps < kMaxCollisions;
   }
-  overflow = overflow || steps == kMaxCollisions;
+  overflow = overflow || going || steps == kMaxCollisions;
   if (flight.collides) {
     flight.beta *= load_volume(row + kMediumAlbedoRow, o + walk.t * d);
     flight.t = walk.t;
@@ -166,7 +166,7 @@ vec3 transmittance_grid(uint medium, vec3 o, vec3 d, float tmax, WalkRandom rand
     transmittance = within ? transmittance * (1.0 - real) : transmittance;
     going = within && transmittance != vec3(0.0) && steps < kMaxCollisions;
   }
-  overflow = overflow || steps == kMaxCollisions;
+  overflow = overflow || going || steps == kMaxCollisions;
   return transmittance;
 }
 

@@ -23,6 +23,7 @@ TACHYLITE_CONST uint kCounterShadowTotal = kMaxQueues + 2u;
 TACHYLITE_CONST uint kCounterNonfinite = kMaxQueues + 3u;       // contributions dropped: NaN or infinite
 TACHYLITE_CONST uint kCounterOverflow = kMaxQueues + 4u;        // stacks or queues that were full
 TACHYLITE_CONST uint kCounterShadowRays = kMaxQueues + 5u;      // shadow rays to trace, of those that were queued
+TACHYLITE_CONST uint kCounterUnfinished = kMaxQueues + 6u;      // lanes whose loops the driver has ended too early
 TACHYLITE_CONST uint kCounterArguments = kMaxQueues + 8u;       // (x, y, z) of each dispatch below, 4 words apart
 
 // Indirect dispatches.

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -27,7 +28,7 @@ bool drain(int descriptor, std::string& text) {
 }
 
 [[noreturn]] void become(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                         const std::filesystem::path& folder, int out, int err) {
+                         const ProgramOptions& options, int out, int err) {
   std::vector<std::string> words = arguments;
   words.insert(words.begin(), program.string());
   std::vector<char*> argv;
@@ -37,8 +38,13 @@ bool drain(int descriptor, std::string& text) {
   dup2(in, 0);
   dup2(out, 1);
   dup2(err, 2);
-  if (!folder.empty() && chdir(folder.c_str()) != 0) _exit(126);
+  if (!options.folder.empty() && chdir(options.folder.c_str()) != 0) _exit(126);
   setenv("TACHYLITE_VALIDATION", "1", 1);
+  for (const auto& [name, value] : options.environment) setenv(name.c_str(), value.c_str(), 1);
+  if (options.largest_file > 0) {
+    const rlimit limit{options.largest_file, options.largest_file};
+    if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(126);
+  }
   execv(argv[0], argv.data());
   _exit(127);
 }
@@ -50,7 +56,7 @@ ProgramResult run_program(const std::filesystem::path& program, const std::vecto
   int out[2], err[2];
   if (pipe2(out, O_CLOEXEC) != 0 || pipe2(err, O_CLOEXEC) != 0) throw std::runtime_error("pipe2 failed");
   const pid_t child = fork();
-  if (child == 0) become(program, arguments, options.folder, out[1], err[1]);
+  if (child == 0) become(program, arguments, options, out[1], err[1]);
   close(out[1]);
   close(err[1]);
   fcntl(out[0], F_SETFL, O_NONBLOCK);

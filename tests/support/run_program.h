@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -18,6 +19,8 @@ struct ProgramResult {
 
 struct ProgramOptions {
   std::filesystem::path folder;  // working directory; empty: that of the test
+  std::vector<std::pair<std::string, std::string>> environment;  // beside that of the test
+  uint64_t largest_file = 0;     // bytes; 0: no limit
   double seconds = 120;          // after that it is killed, and the test fails
   /// Called every few milliseconds with what stderr holds so far; returns a signal to send once, or 0.
   std::function<int(const std::string& err)> signal;

@@ -280,7 +280,7 @@ TEST(ReferenceRendering, AovsHaveMitsubasChannels) {
   ReferenceOptions options;
   options.samples = 2;
   options.aovs = {"depth", "uv", "shape_index"};
-  const Image image = to_image(render_reference(b.scene, options), true);
+  const Image image = to_image(render_reference(b.scene, options));
   const std::vector<std::string> names{
       "R",          "variance.R", "m2_R",     "G",        "variance.G",   "m2_G", "B",
       "variance.B", "m2_B",       "albedo.R", "albedo.G", "albedo.B",     "nn.X", "nn.Y",

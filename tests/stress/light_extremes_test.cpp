@@ -1,0 +1,126 @@
+// Lights at their extremes, on a diffuse plane seen from above: the radiance that leaves it is albedo / pi times an
+// irradiance that is known.
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "stress/stress_case.h"
+
+namespace tachylite::test {
+namespace {
+
+constexpr double kAlbedo = 0.5;
+
+// A plane of side 2 `half` at z = 0, of which the camera sees the middle 2e-3 half.
+std::string plane(double half = 1, int size = 8) {
+  return fmt::format(R"(<integrator type="direct"/><sensor type="perspective"><float name="fov" value="0.1145"/>
+<float name="near_clip" value="{}"/><float name="far_clip" value="{}"/><transform name="to_world">
+<lookat origin="0, 0, {}" target="0, 0, 0" up="0, 1, 0"/></transform>
+<film type="hdrfilm"><integer name="width" value="{}"/><integer name="height" value="{}"/><rfilter type="box"/></film></sensor>
+<shape type="rectangle"><transform name="to_world"><scale value="{}"/></transform><bsdf type="diffuse">
+<float name="reflectance" value="{}"/></bsdf></shape>
+)", 1e-3 * half, 1e3 * half, half, size, size, half, kAlbedo);
+}
+
+std::function<double(const FilmBuffer&)> black() {
+  return [](const FilmBuffer& film) {
+    double largest = 0;
+    for (size_t i = 0; i < film.pixels(); ++i)
+      for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(film.mean(i)[c]));
+    return largest;
+  };
+}
+
+void expect_black(const std::string& name, const std::string& lights,
+                  const std::vector<std::pair<std::string, std::string>>& files = {}) {
+  expect_stress(scene_from_elements(plane() + lights, files), {.name = name, .samples = 8, .bound = 0, .error = black()});
+}
+
+using LightExtremes = DeviceTest;
+
+TEST_F(LightExtremes, PointLights) {
+  // E = I / h^2 straight below.
+  for (const double intensity : {1e-20, 1.0, 1e20})
+    for (const double height : {1e-4, 1e-2, 0.9}) {
+      const double half = 10 * height;
+      expect_stress(scene_from_elements(plane(half, 4) + fmt::format(R"(<emitter type="point">
+<point name="position" x="0" y="0" z="{}"/><float name="intensity" value="{}"/></emitter>)", height, intensity)),
+                    {.name = fmt::format("point light of {:.0e} at {:.0e}", intensity, height), .samples = 4,
+                     // Across the view (2e-3 half) the irradiance falls by cos^3: 1.5 (2e-2)^2.
+                     .bound = 8e-4, .error = worst_pixel(kAlbedo / M_PI * intensity / (height * height))});
+    }
+}
+
+TEST_F(LightExtremes, LightsThatShineNothingOnIt) {
+  expect_black("point light behind", R"(<emitter type="point"><point name="position" z="-1"/></emitter>)");
+  expect_black("point light in the plane of the surface", R"(<emitter type="point"><point name="position" x="0.5"/></emitter>)");
+  expect_black("sun behind", R"(<emitter type="directional"><vector name="direction" x="0" y="0" z="1"/></emitter>)");
+  expect_black("sun along the surface", R"(<emitter type="directional"><vector name="direction" x="1" y="0" z="0"/></emitter>)");
+  expect_black("area light that faces away", R"(<shape type="rectangle"><transform name="to_world"><translate x="3" z="1"/>
+</transform><emitter type="area"/></shape>)");
+  expect_black("area light behind", R"(<shape type="sphere"><point name="center" z="-3"/><emitter type="area"/></shape>)");
+  expect_black("black sky", R"(<emitter type="constant"><float name="radiance" value="0"/></emitter>)");
+  expect_black("black area light", R"(<shape type="rectangle"><transform name="to_world"><rotate x="1" angle="180"/>
+<translate x="3" z="1"/></transform><emitter type="area"><float name="radiance" value="0"/></emitter></shape>)");
+}
+
+TEST_F(LightExtremes, LightsWithoutArea) {
+  // Triangles without area that glow, beside a light that shines: only that one counts.
+  const std::string sun = R"(<emitter type="directional"><vector name="direction" x="0" y="0" z="-1"/>
+<float name="irradiance" value="2"/></emitter>)";
+  const std::string obj = "v 0 0 1\nv 1 0 1\nv 2 0 1\nv 0 0 1\nf 1 2 3\nf 1 1 2\nf 1 4 2\n";
+  expect_stress(scene_from_elements(plane() + sun + R"(<shape type="obj"><string name="filename" value="m.obj"/>
+<emitter type="area"><float name="radiance" value="1e6"/></emitter></shape>)", {{"m.obj", obj}}),
+                {.name = "glowing triangles without area", .samples = 8, .bound = 2e-6, .error = worst_pixel(kAlbedo / M_PI * 2)});
+}
+
+TEST_F(LightExtremes, SmallInTheHemisphere) {
+  // A sphere of radius r at height h straight above: E = pi L (r / h)^2. Seen as (r / h)^2 / 2 of the hemisphere.
+  for (const double r : {1e-1, 1.4e-3, 1e-5})
+    for (const double radiance : {1e-20, 1e20})
+      expect_stress(scene_from_elements(plane(1, 4) + fmt::format(R"(<shape type="sphere"><point name="center" z="2"/>
+<float name="radius" value="{}"/><emitter type="area"><float name="radiance" value="{}"/></emitter></shape>)", 2 * r, radiance)),
+                    {.name = fmt::format("sphere of {:.0e} of the hemisphere, radiance {:.0e}", r * r / 2, radiance), .samples = 64,
+                     .bound = 1e-5, .error = mean_beyond_noise(glm::dvec3(kAlbedo * radiance * r * r))});
+}
+
+// A rectangle of 2 x 2 at height 1, facing down: E = L times pi times the form factor of four equal corners.
+double irradiance_below_square(double half, double h) {
+  const double a = half / h, s = std::sqrt(1 + a * a);
+  return 4 * (a / s * std::atan(a / s));  // twice (1/2)(a/s atan(a/s) + a/s atan(a/s)) a corner
+}
+
+TEST_F(LightExtremes, AMillionLights) {
+  // The rectangle as 2 n^2 triangles, each a light of its own.
+  for (const int n : {8, 708}) {
+    std::string ply = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
+                                  "property float z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n",
+                                  (n + 1) * (n + 1), 2 * n * n);
+    const auto put = [&](auto value) { ply.append(reinterpret_cast<const char*>(&value), sizeof value); };
+    for (int i = 0; i < (n + 1) * (n + 1); ++i) {
+      put(static_cast<float>(2.0 * (i % (n + 1)) / n - 1));
+      put(static_cast<float>(2.0 * (i / (n + 1)) / n - 1));
+      put(1.0f);
+    }
+    for (int y = 0; y < n; ++y)
+      for (int x = 0; x < n; ++x)
+        for (int half = 0; half < 2; ++half) {
+          const int a = y * (n + 1) + x;
+          put(uint8_t{3});
+          put(int32_t{a});
+          put(int32_t{half ? a + n + 1 : a + n + 2});
+          put(int32_t{half ? a + n + 2 : a + 1});
+        }
+    std::string scene = plane(1, 8) + R"(<shape type="ply"><string name="filename" value="m.ply"/>
+<emitter type="area"><float name="radiance" value="3"/></emitter></shape>)";
+    scene.replace(scene.find("0, 0, 1\" target"), 7, "0, 0, 0.5");
+    const double expected = kAlbedo / M_PI * 3 * irradiance_below_square(1, 1);
+    expect_stress(scene_from_elements(scene, {{"m.ply", ply}}),
+                  {.name = fmt::format("{} emissive triangles", 2 * n * n), .samples = 256, .bound = 1e-4,
+                   .error = mean_beyond_noise(glm::dvec3(expected)), .on_reference = n < 100});
+  }
+}
+
+}  // namespace
+}  // namespace tachylite::test

@@ -1,0 +1,71 @@
+#include "stress/stress_case.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "reference/reference.h"
+
+namespace tachylite::test {
+
+void expect_stress(const Scene& scene, const StressCase& c) {
+  std::string line = fmt::format("stress | {} | bound {:.1e}", c.name, c.bound);
+  const auto judge = [&](const char* by, const FilmBuffer& film) {
+    const double error = c.error(film);
+    line += fmt::format(" | {} {:.1e}", by, error);
+    EXPECT_LE(error, c.bound) << c.name << ", " << by;
+  };
+  const PackedScene packed = pack_scene(scene);
+  for (const KernelStructure structure : {KernelStructure::kStages, KernelStructure::kFused}) {
+    RenderOptions options;
+    options.samples = c.samples;
+    options.structure = structure;
+    if (structure == KernelStructure::kFused && !bake_geometry(packed)) continue;
+    Renderer renderer(device(), packed, options);
+    judge(structure == KernelStructure::kStages ? "stages" : "one kernel", renderer.render());
+    EXPECT_EQ(renderer.statistics().nonfinite, 0u) << c.name;
+    EXPECT_EQ(renderer.statistics().overflow, 0u) << c.name;
+  }
+  if (c.on_reference) {
+    ReferenceOptions options;
+    options.samples = c.samples;
+    const ReferenceImage image = render_reference(scene, options);
+    judge("reference", image.film);
+    EXPECT_EQ(image.nonfinite, 0u) << c.name;
+  }
+  fmt::print("{}\n", line);
+}
+
+std::function<double(const FilmBuffer&)> worst_pixel(double expected) {
+  return [expected](const FilmBuffer& film) {
+    double worst = 0;
+    for (size_t i = 0; i < film.pixels(); ++i)
+      for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(film.mean(i)[c] / expected - 1));
+    return worst;
+  };
+}
+
+ImageMean image_mean(const FilmBuffer& film) {
+  ImageMean mean;
+  const double n = static_cast<double>(film.pixels());
+  for (size_t i = 0; i < film.pixels(); ++i) {
+    mean.value += film.mean(i) / n;
+    mean.error += film.variance_of_mean(i) / (n * n);
+  }
+  mean.error = glm::sqrt(mean.error);
+  return mean;
+}
+
+std::function<double(const FilmBuffer&)> mean_beyond_noise(const glm::dvec3& expected) {
+  return [expected](const FilmBuffer& film) {
+    const ImageMean mean = image_mean(film);
+    double worst = 0;
+    for (int c = 0; c < 3; ++c) {
+      const double beyond = std::abs(mean.value[c] - expected[c]) - 5 * mean.error[c];
+      worst = std::max(worst, std::max(beyond, 0.0) / expected[c]);
+    }
+    return worst;
+  };
+}
+
+}  // namespace tachylite::test

@@ -1,0 +1,34 @@
+#pragma once
+
+// A stress case: a scene whose image is known. It is rendered by all that can render it (stages and, where it fits, the
+// one kernel on the device; the reference), and each is held to the bound. The worst errors are printed for README.md.
+
+#include <functional>
+#include <string>
+
+#include "support/render_test.h"
+
+namespace tachylite::test {
+
+struct StressCase {
+  std::string name;
+  uint64_t samples = 16;
+  double bound = 0;  // of the error
+  /// Of an image; what it is relative to is the case's business.
+  std::function<double(const FilmBuffer&)> error;
+  bool on_reference = true;
+};
+void expect_stress(const Scene& scene, const StressCase& c);
+
+/// Largest relative error of a pixel's channel against one value.
+std::function<double(const FilmBuffer&)> worst_pixel(double expected);
+/// Relative error of the image's mean, beyond five standard errors of it, against the value of each channel.
+std::function<double(const FilmBuffer&)> mean_beyond_noise(const glm::dvec3& expected);
+
+/// Mean of the image's pixels and the standard error of that mean.
+struct ImageMean {
+  glm::dvec3 value{0}, error{0};
+};
+ImageMean image_mean(const FilmBuffer& film);
+
+}  // namespace tachylite::test
