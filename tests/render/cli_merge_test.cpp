@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <csignal>
 
+#include <fmt/format.h>
+
 #include "base/timer.h"
 #include "image/exr.h"
 #include "support/run_program.h"

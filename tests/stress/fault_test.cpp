@@ -5,6 +5,8 @@
 #include <csignal>
 #include <fstream>
 
+#include <fmt/format.h>
+
 #include "image/exr.h"
 #include "support/run_program.h"
 

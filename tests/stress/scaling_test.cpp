@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "stress/stress_case.h"
@@ -27,7 +28,7 @@ void scale_lengths(Scene& scene, double factor) {
   const dmat4 scale = glm::scale(dmat4(1), dvec3(factor));
   for (Shape& shape : scene.shapes) shape.to_world = scale * shape.to_world;
   Sensor& sensor = scene.sensors[0];
-  sensor.to_world[3] = dvec4(dvec3(sensor.to_world[3]) * factor, 1);
+  sensor.to_world[3] = glm::dvec4(dvec3(sensor.to_world[3]) * factor, 1);
   sensor.near_clip *= factor;
   sensor.far_clip *= factor;
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "pack/bake_geometry.h"
 #include "reference/reference.h"
 
 namespace tachylite::test {
