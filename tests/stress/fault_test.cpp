@@ -50,7 +50,7 @@ TEST_F(Faults, EveryVulkanCall) {
   const std::vector<Case> cases = {
       {"vkCreateInstance", "VK_ERROR_INITIALIZATION_FAILED", -3, {1}},
       {"vkCreateDevice", "VK_ERROR_OUT_OF_HOST_MEMORY", -1, {1}},
-      {"vkCreateCommandPool", "VK_ERROR_OUT_OF_HOST_MEMORY", -1, {1, 2}},
+      {"vkCreateCommandPool", "VK_ERROR_OUT_OF_HOST_MEMORY", -1, {1}},
       {"vkAllocateCommandBuffers", "VK_ERROR_OUT_OF_DEVICE_MEMORY", -2, {1}},
       {"vkCreateFence", "VK_ERROR_OUT_OF_HOST_MEMORY", -1, {1}},
       {"vkCreateBuffer", "VK_ERROR_OUT_OF_DEVICE_MEMORY", -2, {1, 9}},
@@ -149,7 +149,7 @@ TEST_F(Faults, KilledWhileWriting) {
         if (name.find(".part") != std::string::npos) return signal;
       return 0;
     };
-    const ProgramResult result = render({"--spp", "1", "-D", "n=700", "-o", "a.exr"}, "", options);
+    const ProgramResult result = render({"--spp", "1", "-D", "n=400", "-o", "a.exr"}, "", options);
     if (signal == SIGKILL) {
       EXPECT_EQ(result.exit_code, 128 + SIGKILL) << "the image was written before the signal came";
       EXPECT_EQ(content("a.exr"), before);
@@ -158,7 +158,7 @@ TEST_F(Faults, KilledWhileWriting) {
     } else {
       // The first signal lets writing end.
       EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 130) << result.exit_code;
-      EXPECT_EQ(read_exr(folder / "a.exr").width, 700);
+      EXPECT_EQ(read_exr(folder / "a.exr").width, 400);
     }
     EXPECT_EQ(files(), (std::vector<std::string>{"a.exr", "scene.xml"}));
   }

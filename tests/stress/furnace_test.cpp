@@ -39,13 +39,13 @@ using Furnace = DeviceTest;
 
 TEST_F(Furnace, SmoothConductors) {
   // F = ((eta - 1)^2 + k^2) / ((eta + 1)^2 + k^2) at normal incidence; 1 for eta = 0 or huge k, at all angles.
-  for (const auto& [eta, k] : {std::pair(0.0, 1.0), {0.0, 1e-3}, {1.0, 1e6}, {1.5, 1e8}}) {
+  for (const auto& [eta, k] : {std::pair(0.0, 1e-3), {1.5, 1e8}}) {
     const std::string bsdf = fmt::format(R"(<bsdf type="conductor"><float name="eta" value="{}"/><float name="k" value="{}"/></bsdf>)", eta, k);
     expect_stress(scene_from_elements(furnace(path(8), ball(bsdf))),
                   {.name = fmt::format("mirror, eta {} k {}", eta, k), .samples = 4, .bound = 5e-6, .error = worst_pixel(1)});
   }
   // k = 0 is glass seen from outside: at the centre of a sphere that fills little, F of normal incidence.
-  for (const double eta : {1.5, 4.0, 100.0, 0.25}) {
+  for (const double eta : {1.5, 100.0}) {
     const std::string bsdf = fmt::format(R"(<bsdf type="conductor"><float name="eta" value="{}"/><float name="k" value="0"/></bsdf>)", eta);
     const double r = (eta - 1) / (eta + 1);
     expect_stress(scene_from_elements(furnace(path(8), ball(bsdf), 0.01)),
@@ -56,7 +56,7 @@ TEST_F(Furnace, SmoothConductors) {
 
 TEST_F(Furnace, SmoothDielectrics) {
   // What is reflected and what is refracted sum to 1; paths of 64 segments lose less than 1e-6.
-  for (const double difference : {1e-7, -1e-7, 1e-4, -1e-4, 0.5, -0.5, 3.0, -0.75}) {
+  for (const double difference : {1e-7, -1e-7, 1e-4, -0.5, 3.0}) {
     const std::string bsdf = fmt::format(R"(<bsdf type="dielectric"><float name="int_ior" value="{:.9f}"/>
 <float name="ext_ior" value="1"/></bsdf>)", 1 + difference);
     expect_stress(scene_from_elements(furnace(path(64), ball(bsdf))),
@@ -68,7 +68,7 @@ TEST_F(Furnace, SmoothDielectrics) {
 TEST_F(Furnace, NearlySmoothRough) {
   // Single scattering loses O(alpha^2): below the bound here.
   for (const char* distribution : {"ggx", "beckmann"})
-    for (const double alpha : {1e-6, 1e-5, 1e-4, 1e-3}) {
+    for (const double alpha : {1e-6, 1e-3}) {
       const std::string rough = fmt::format(R"(<string name="distribution" value="{}"/><float name="alpha" value="{}"/>)", distribution, alpha);
       expect_stress(scene_from_elements(furnace(path(4), ball(R"(<bsdf type="roughconductor"><string name="material" value="none"/>)" + rough + "</bsdf>"), 18)),
                     {.name = fmt::format("rough mirror, {} {:.0e}", distribution, alpha), .samples = 16, .bound = 1e-3,
@@ -80,13 +80,11 @@ TEST_F(Furnace, NearlySmoothRough) {
 }
 
 TEST_F(Furnace, MediaThatAbsorbNothing) {
-  for (const double g : {0.0, 0.9, -0.9, 0.99999, -0.99999})
-    for (const double depth : {1e-7, 1e-2, 1.0, 30.0}) {
-      // Thick and forward: a thousand events and more.
-      expect_stress(scene_from_elements(furnace(volpath(-1), cube(medium(depth / 2, 1, hg(g))))),
+  for (const auto& [g, depth] : {std::pair(0.9, 1e-7), {-0.99999, 1e-2}, {0.0, 5.0}, {0.99999, 30.0}, {-0.99999, 3.0}}) {
+    expect_stress(scene_from_elements(furnace(volpath(-1), cube(medium(depth / 2, 1, hg(g))))),
                     {.name = fmt::format("white fog, optical depth {:.0e}, g {}", depth, g), .samples = 4, .bound = 1e-6,
                      .error = worst_pixel(1), .on_reference = depth < 10});
-    }
+  }
 }
 
 TEST_F(Furnace, ThousandEvents) {
@@ -97,7 +95,7 @@ TEST_F(Furnace, ThousandEvents) {
 }
 
 TEST_F(Furnace, MediaThatOnlyAbsorb) {
-  for (const double depth : {1e-7, 1e-3, 1.0, 8.0, 1e6}) {
+  for (const double depth : {1e-7, 1.0, 1e6}) {
     const double expected = std::exp(-depth);
     expect_stress(scene_from_elements(furnace(volpath(-1), cube(medium(depth / 2, 0)), 0.1)),
                   {.name = fmt::format("absorbing slab, optical depth {:.0e}", depth), .samples = 64,

@@ -41,25 +41,22 @@ using LightExtremes = DeviceTest;
 
 TEST_F(LightExtremes, PointLights) {
   // E = I / h^2 straight below.
-  for (const double intensity : {1e-20, 1.0, 1e20})
-    for (const double height : {1e-4, 1e-2, 0.9}) {
-      const double half = 10 * height;
-      expect_stress(scene_from_elements(plane(half, 4) + fmt::format(R"(<emitter type="point">
+  for (const auto& [intensity, height] : {std::pair(1e-20, 1e-4), {1e20, 1e-2}, {1.0, 0.9}}) {
+    const double half = 10 * height;
+    expect_stress(scene_from_elements(plane(half, 4) + fmt::format(R"(<emitter type="point">
 <point name="position" x="0" y="0" z="{}"/><float name="intensity" value="{}"/></emitter>)", height, intensity)),
                     {.name = fmt::format("point light of {:.0e} at {:.0e}", intensity, height), .samples = 4,
                      // Across the view (2e-3 half) the irradiance falls by cos^3: 1.5 (2e-2)^2.
                      .bound = 8e-4, .error = worst_pixel(kAlbedo / M_PI * intensity / (height * height))});
-    }
+  }
 }
 
 TEST_F(LightExtremes, LightsThatShineNothingOnIt) {
   expect_black("point light behind", R"(<emitter type="point"><point name="position" z="-1"/></emitter>)");
   expect_black("point light in the plane of the surface", R"(<emitter type="point"><point name="position" x="0.5"/></emitter>)");
-  expect_black("sun behind", R"(<emitter type="directional"><vector name="direction" x="0" y="0" z="1"/></emitter>)");
   expect_black("sun along the surface", R"(<emitter type="directional"><vector name="direction" x="1" y="0" z="0"/></emitter>)");
   expect_black("area light that faces away", R"(<shape type="rectangle"><transform name="to_world"><translate x="3" z="1"/>
 </transform><emitter type="area"/></shape>)");
-  expect_black("area light behind", R"(<shape type="sphere"><point name="center" z="-3"/><emitter type="area"/></shape>)");
   expect_black("black sky", R"(<emitter type="constant"><float name="radiance" value="0"/></emitter>)");
   expect_black("black area light", R"(<shape type="rectangle"><transform name="to_world"><rotate x="1" angle="180"/>
 <translate x="3" z="1"/></transform><emitter type="area"><float name="radiance" value="0"/></emitter></shape>)");
@@ -77,9 +74,8 @@ TEST_F(LightExtremes, LightsWithoutArea) {
 
 TEST_F(LightExtremes, SmallInTheHemisphere) {
   // A sphere of radius r at height h straight above: E = pi L (r / h)^2. Seen as (r / h)^2 / 2 of the hemisphere.
-  for (const double r : {1e-1, 1.4e-3, 1e-5})
-    for (const double radiance : {1e-20, 1e20})
-      expect_stress(scene_from_elements(plane(1, 4) + fmt::format(R"(<shape type="sphere"><point name="center" z="2"/>
+  for (const auto& [r, radiance] : {std::pair(1e-1, 1e-20), {1.4e-3, 1.0}, {1e-5, 1e20}})
+    expect_stress(scene_from_elements(plane(1, 4) + fmt::format(R"(<shape type="sphere"><point name="center" z="2"/>
 <float name="radius" value="{}"/><emitter type="area"><float name="radiance" value="{}"/></emitter></shape>)", 2 * r, radiance)),
                     {.name = fmt::format("sphere of {:.0e} of the hemisphere, radiance {:.0e}", r * r / 2, radiance), .samples = 64,
                      .bound = 1e-5, .error = mean_beyond_noise(glm::dvec3(kAlbedo * radiance * r * r))});

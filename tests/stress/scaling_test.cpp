@@ -61,13 +61,14 @@ TEST_F(Scaling, RadianceByPowersOfTwo) {
     RenderOptions options;
     options.samples = 8;
     const std::vector<dvec3> original = means(render_on_device(scene, options).film);
-    for (const int exponent : {-66, -40, 40, 66}) {  // 1e-20 ... 7e19
+    for (const int exponent : {-66, 66}) {  // 1e-20 ... 7e19
       const double factor = std::ldexp(1.0, exponent);
       Scene scaled = scene;
       scale_radiance(scaled, factor);
       const std::string name = fmt::format("radiance of {} by 2^{}", fits_one_kernel ? "a box" : "metal and glass", exponent);
       // Stages and one kernel add a path's contributions in different orders.
-      expect_stress(scaled, {.name = name, .samples = 8, .bound = 2e-6, .error = against(original, factor), .on_reference = false});
+      expect_stress(scaled, {.name = name, .samples = 8, .bound = 2e-6, .error = against(original, factor), .on_reference = false,
+                             .both_structures = true});
     }
   }
 }
@@ -77,7 +78,7 @@ TEST_F(Scaling, LengthsByPowersOfTwo) {
   RenderOptions options;
   options.samples = 8;
   const std::vector<dvec3> original = means(render_on_device(scene, options).film);
-  for (const int exponent : {-14, -7, 10, 20}) {  // 6e-5 ... 1e6
+  for (const int exponent : {-14, 20}) {  // 6e-5 ... 1e6
     Scene scaled = scene;
     scale_lengths(scaled, std::ldexp(1.0, exponent));
     expect_stress(scaled, {.name = fmt::format("lengths by 2^{}", exponent), .samples = 8, .bound = 0,

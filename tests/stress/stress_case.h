@@ -1,7 +1,7 @@
 #pragma once
 
-// A stress case: a scene whose image is known. It is rendered by all that can render it (stages and, where it fits, the
-// one kernel on the device; the reference), and each is held to the bound. The worst errors are printed for README.md.
+// A stress case: a scene whose image is known. It is rendered on the device and by the reference, and each is held to the
+// bound. The worst errors are printed for README.md.
 
 #include <functional>
 #include <string>
@@ -17,6 +17,7 @@ struct StressCase {
   /// Of an image; what it is relative to is the case's business.
   std::function<double(const FilmBuffer&)> error;
   bool on_reference = true;
+  bool both_structures = false;  // also as stages, where one kernel would do
 };
 void expect_stress(const Scene& scene, const StressCase& c);
 
