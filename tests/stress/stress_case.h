@@ -16,6 +16,8 @@ struct StressCase {
   double bound = 0;  // of the error
   /// Of an image; what it is relative to is the case's business.
   std::function<double(const FilmBuffer&)> error;
+  /// The reference's, where its paths are more random: it samples every sky.
+  std::function<double(const FilmBuffer&)> reference_error = nullptr;
   bool on_reference = true;
   bool both_structures = false;  // also as stages, where one kernel would do
 };

@@ -280,11 +280,11 @@ TEST(ReferenceRendering, AovsHaveMitsubasChannels) {
   ReferenceOptions options;
   options.samples = 2;
   options.aovs = {"depth", "uv", "shape_index"};
+  b.scene.integrator.moment = true;
   const Image image = to_image(render_reference(b.scene, options));
   const std::vector<std::string> names{
-      "R",          "variance.R", "m2_R",     "G",        "variance.G",   "m2_G", "B",
-      "variance.B", "m2_B",       "albedo.R", "albedo.G", "albedo.B",     "nn.X", "nn.Y",
-      "nn.Z",       "dd.T",       "depth.Z",  "uv.U",     "uv.V",         "shape_index.I"};
+      "R",    "G",    "B",    "variance.R", "variance.G", "variance.B", "albedo.R",      "albedo.G", "albedo.B", "nn.X",
+      "nn.Y", "nn.Z", "dd.T", "depth.Z",    "uv.U",       "uv.V",       "shape_index.I", "m2_R",     "m2_G",     "m2_B"};
   EXPECT_EQ(image.names, names);
   EXPECT_NEAR(image.find("albedo.G")->at(0), 0.2, 1e-7);
   EXPECT_NEAR(image.find("nn.Z")->at(5), 1, 1e-7);
