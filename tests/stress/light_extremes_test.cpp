@@ -63,12 +63,13 @@ TEST_F(LightExtremes, LightsThatShineNothingOnIt) {
 }
 
 TEST_F(LightExtremes, LightsWithoutArea) {
-  // Triangles without area that glow, beside a light that shines: only that one counts.
+  // Triangles without area that glow, with one that faces away, beside a light that shines: only that one counts.
   const std::string sun = R"(<emitter type="directional"><vector name="direction" x="0" y="0" z="-1"/>
 <float name="irradiance" value="2"/></emitter>)";
-  const std::string obj = "v 0 0 1\nv 1 0 1\nv 2 0 1\nv 0 0 1\nf 1 2 3\nf 1 1 2\nf 1 4 2\n";
+  const std::string obj = "v 0 0 1\nv 1 0 1\nv 2 0 1\nv 0 0 1\nv 3 3 1\nv 4 3 1\nv 3 4 1\n"
+                          "f 1 2 3\nf 1 1 2\nf 1 4 2\nf 5 6 7\n";
   expect_stress(scene_from_elements(plane() + sun + R"(<shape type="obj"><string name="filename" value="m.obj"/>
-<emitter type="area"><float name="radiance" value="1e6"/></emitter></shape>)", {{"m.obj", obj}}),
+<boolean name="face_normals" value="true"/><emitter type="area"><float name="radiance" value="1e6"/></emitter></shape>)", {{"m.obj", obj}}),
                 {.name = "glowing triangles without area", .samples = 8, .bound = 2e-6, .error = worst_pixel(kAlbedo / M_PI * 2)});
 }
 
