@@ -46,16 +46,5 @@ TEST_F(LoopBudget, ThousandsOfSteps) {
   }
 }
 
-TEST_F(LoopBudget, ThousandsOfBounces) {
-  // A glowing room without roulette, a path of 5,000 bounces: stages do it, one kernel may not.
-  std::string elements = R"(<integrator type="path"><integer name="max_depth" value="5000"/>
-<integer name="rr_depth" value="100000"/></integrator>)" + sensor_element(8, 8, "0, 0, 0.5", "0, 0, -1", 60) +
-      R"(<shape type="cube"><boolean name="flip_normals" value="true"/><bsdf type="diffuse"><float name="reflectance" value="0.5"/>
-</bsdf><emitter type="area"/></shape>)";
-  Scene scene = scene_from_elements(elements);
-  scene.integrator.strategy = Integrator::Strategy::kBsdfOnly;
-  expect_right_or_refused("paths of 5,000 bounces", scene, 2);
-}
-
 }  // namespace
 }  // namespace tachylite::test
