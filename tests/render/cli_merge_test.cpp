@@ -15,7 +15,7 @@ const std::string kScene = TACHYLITE_SOURCE_DIR "/scenes/cornell-box/scene.xml";
 
 // Stages, a textured material, an environment, moments and all kinds of auxiliary channels.
 const char* const kOtherScene = R"(<scene version="3.0.0"><default name="n" value="12"/>
-<integrator type="moment"><integrator type="aov"><string name="aovs" value="p:position,d:depth,a:albedo,i:shape_index"/>
+<integrator type="moment"><integrator type="aov"><string name="aovs" value="p:position,d:depth,a:albedo,i:shape_index,n:sample_count"/>
 <integrator type="path"><integer name="max_depth" value="5"/></integrator></integrator></integrator>
 <sensor type="perspective"><float name="fov" value="50"/><transform name="to_world">
 <lookat origin="900, 3, 2" target="900, 0, -4" up="0, 1, 0"/></transform>
