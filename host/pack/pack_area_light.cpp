@@ -89,7 +89,21 @@ int bend(const Triangle& t, const dvec3& n) {
 struct FlatContext {
   const LightRadiance& radiance;
   bool flip;
+  double density;  // that Mitsuba samples the mesh's points with, its choice of the mesh included [1/area]
 };
+
+double mesh_area(const Geometry& geometry, const ShapeGeometry& range) {
+  double area = 0;
+  for (uint32_t i = 0; i < range.primitive_count; ++i)
+    area += glm::length(area_vector(load_triangle(geometry, range, range.first_primitive + i)));
+  return area;
+}
+
+size_t sampled_emitters(const Scene& scene) {
+  return static_cast<size_t>(std::count_if(scene.emitters.begin(), scene.emitters.end(), [](const Emitter& emitter) {
+    return !std::holds_alternative<DirectionalAreaEmitter>(emitter.kind);
+  }));
+}
 
 LightRecord flat_record(const FlatContext& context, const Triangle& t, bool rectangle, uint32_t first_primitive,
                         uint32_t hit0, uint32_t hit1) {
@@ -131,7 +145,7 @@ LightRecord flat_record(const FlatContext& context, const Triangle& t, bool rect
   if (context.radiance.texture || smooth) {
     r.corners = {glm::vec4(t[0].uv, t[1].uv), glm::vec4(t[2].uv, 0, 0)};
     if (smooth)
-      for (const Corner& c : t) r.corners.emplace_back(side * glm::normalize(c.n), 0);
+      for (const Corner& c : t) r.corners.emplace_back(side * glm::normalize(c.n), context.density);
   }
 
   LightBounds& b = r.bounds;
@@ -152,11 +166,12 @@ LightRecord flat_record(const FlatContext& context, const Triangle& t, bool rect
   return r;
 }
 
-std::vector<LightRecord> flat_records(const Geometry& geometry, size_t s, const LightRadiance& radiance,
-                                      const std::vector<uint32_t>& hits) {
+std::vector<LightRecord> flat_records(const Scene& scene, const Geometry& geometry, size_t s,
+                                      const LightRadiance& radiance, const std::vector<uint32_t>& hits) {
   const ShapeGeometry& range = geometry.shapes[s];
   const uint32_t first = range.first_primitive, count = range.primitive_count;
-  const FlatContext context{radiance, range.flip_normals};
+  const double emitters = static_cast<double>(sampled_emitters(scene));
+  const FlatContext context{radiance, range.flip_normals, 1 / (emitters * mesh_area(geometry, range))};
   const bool attribute = radiance.texture && std::holds_alternative<MeshAttributeTexture>(radiance.texture->kind);
   const bool with_uv = radiance.texture != nullptr;
   std::vector<LightRecord> records;
@@ -255,7 +270,7 @@ std::vector<LightRecord> area_light_records(const Scene& scene, const Geometry& 
                                             const LightRadiance& radiance, const std::vector<uint32_t>& hits) {
   if (geometry.shapes[s].first_primitive >= geometry.triangles.size())
     return {curved_record(scene, geometry, s, radiance, hits.at(0))};
-  return flat_records(geometry, s, radiance, hits);
+  return flat_records(scene, geometry, s, radiance, hits);
 }
 
 }  // namespace tachylite

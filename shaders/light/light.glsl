@@ -90,10 +90,19 @@ vec3 point_light_irradiance(uint light, vec4 row0, vec3 p, out vec3 to) {
   return value;
 }
 
-// Radiance of the area light at `light` from one of its points towards -wi. row0..row5: of the light.
-vec3 sampled_radiance(vec3 le, uint kind, uint flags, uint texture_row, vec4 row5, LightPoint point, vec3 wi) {
+// Mitsuba converts area to solid angle by the shading normal n_s; its estimate depends on the density that it weighs
+// against the bsdf's, and its images are the standard. density: row 2, w of the corners; to: from p to the light.
+float pdf_smooth_light(float density, vec3 n_s, vec3 to) {
+  float d2 = dot(to, to);
+  return density * d2 * sqrt(d2) / max(abs(dot(n_s, to)), 1e-30);
+}
+
+// Radiance of an area light, chosen with that probability, from one of its points towards -wi. row4, row5: of the
+// light. Of smooth lights the density becomes that of pdf_smooth_light, and the radiance makes up for it.
+vec3 sampled_radiance(vec3 le, uint kind, uint flags, uint texture_row, vec4 row4, vec4 row5, vec3 wi,
+                      float probability, inout LightPoint point) {
   vec3 n = point.n;
-  float shading = 1.0;
+  float smooth_scale = 1.0;
   TexturePoint where = TexturePoint(point.st, floatBitsToUint(row5.x), point.st);
   uint corners = floatBitsToUint(row5.z);
   bool flat_shape = is_light(kind, kLightTriangles) || is_light(kind, kLightRectangle);
@@ -102,17 +111,19 @@ vec3 sampled_radiance(vec3 le, uint kind, uint flags, uint texture_row, vec4 row
     where.uv = a.xy + point.st.x * (a.zw - a.xy) + point.st.y * (b.xy - a.xy);
   }
   if (has_light(kLightsSmooth) && flat_shape && (flags & kLightSmooth) != 0u) {
-    n = normalize((1.0 - point.st.x - point.st.y) * load_light(corners + 2u).xyz +
-                  point.st.x * load_light(corners + 3u).xyz + point.st.y * load_light(corners + 4u).xyz);
-    // Mitsuba converts area to solid angle by the shading normal here, and its images are the standard.
-    shading = abs(dot(n, wi)) / max(abs(dot(point.n, wi)), 1e-6);
+    vec4 n0 = load_light(corners + 2u);
+    n = normalize((1.0 - point.st.x - point.st.y) * n0.xyz + point.st.x * load_light(corners + 3u).xyz +
+                  point.st.y * load_light(corners + 4u).xyz);
+    float density = n0.w / probability;
+    smooth_scale = row4.w * density;
+    point.pdf = pdf_smooth_light(density, n, point.to);
   }
   if (has_light_textures && is_light(kind, kLightDisk)) {
     float phi = xatan2(point.st.y, point.st.x) * kInvTwoPi;
     where.uv = vec2(length(point.st), phi < 0.0 ? phi + 1.0 : phi);
   }
   if (has_light_textures && texture_row != kNoTexture) le = texture_color(texture_row, where);
-  return dot(n, wi) < 0.0 ? shading * le : vec3(0.0);
+  return dot(n, wi) < 0.0 ? smooth_scale * le : vec3(0.0);
 }
 
 // n: shading normal at p, on the side that light may come from; zero where it may come from all sides: in media, on
@@ -156,8 +167,8 @@ LightSample sample_light(vec3 p, vec3 n, vec2 u, float u_select, out float selec
     if (kind <= kLightCylinder && point.pdf > 0.0 && d2 > 0.0) {
       s.wi = point.to * inversesqrt(d2);
       s.to_light = point.to;
+      s.radiance = sampled_radiance(row0.xyz, kind, flags, floatBitsToUint(row2.w), row4, row5, s.wi, probability, point);
       s.pdf = point.pdf;
-      s.radiance = sampled_radiance(row0.xyz, kind, flags, floatBitsToUint(row2.w), row5, point, s.wi);
       s.target = hit;
     }
   }
@@ -203,7 +214,7 @@ LightSample sample_light(vec3 p, vec3 n, vec2 u, float u_select, out float selec
 Receiver receiver(vec3 p, float selection_key) { return Receiver(p, unpack_normal(floatBitsToUint(selection_key))); }
 
 // Density of sample_light at p, which gave selection_key, for the direction d (unit) in which a ray from p hit the
-// light of `it` after t, at hit_id.
+// light of `it` after t, at hit_id. Of smooth lights that of pdf_smooth_light.
 float pdf_light_hit(vec3 p, float selection_key, Interaction it, uint hit_id, vec3 d, float t) {
   uint light = light_of_hit(it);
   vec4 row0 = load_found_light(light, 0u), row1 = load_found_light(light, 1u), row2 = load_found_light(light, 2u);
@@ -218,7 +229,10 @@ float pdf_light_hit(vec3 p, float selection_key, Interaction it, uint hit_id, ve
   if (is_light(kind, kLightDisk)) pdf = pdf_of_area(row4.w, to, row4.xyz);
   if (is_light(kind, kLightCylinder))
     pdf = pdf_cylinder_hit(view_cylinder(v0, row2.xyz, row3.xyz, row4.xyz, row3.w != 0.0), to);
-  return pdf * probability_of_light(receiver(p, selection_key), floatBitsToUint(row5.yw));
+  pdf *= probability_of_light(receiver(p, selection_key), floatBitsToUint(row5.yw));
+  if (has_light(kLightsSmooth) && (floatBitsToUint(row0.w) & kLightSmooth) != 0u)
+    pdf = pdf_smooth_light(load_light(floatBitsToUint(row5.z) + 2u).w, it.n_s, to);
+  return pdf;
 }
 
 // Density of sample_light at p for the direction d (unit) of a ray that escaped. 0 where the environment is not

@@ -25,7 +25,8 @@
 //               5: texture row; tan of the cutoff
 //     projector: 1..3: as spot; 4: 1 / tan(x_fov / 2), the same times aspect, cos of the corner, unused; 5: as spot
 //   Corners' data, where the radiance is a texture or the mesh has vertex normals, after all lights:
-//     row 0: uv of v0, uv of v0 + e1     row 1: uv of v0 + e2; unused     rows 2..4: vertex normals (smooth lights)
+//     row 0: uv of v0, uv of v0 + e1     row 1: uv of v0 + e2; unused     rows 2..4: vertex normals (smooth lights);
+//        row 2, w: 1 / (area of the mesh * number of emitters)
 //
 // Table (kBindLightTable): rows of uvec4, floats by their bits.
 //   row 0: number of units; unused; environment's first light row (kNoIndex: none); importance of the environment (bits)

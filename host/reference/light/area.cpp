@@ -11,7 +11,8 @@ dvec3 emitted_area(const AreaEmitter& emitter, const Scene& scene, const Surface
 double pdf_area_light(const Geometry& geometry, const dvec3& receiver, const SurfacePoint& surface) {
   const dvec3 d = surface.p - receiver;
   const double distance2 = glm::dot(d, d);
-  const double cos_light = std::abs(glm::dot(surface.n_g, d)) / std::sqrt(distance2);
+  // Mitsuba converts area to solid angle by the shading normal; its images, which are the standard, depend on it.
+  const double cos_light = std::abs(glm::dot(surface.frame.n, d)) / std::sqrt(distance2);
   return cos_light > 0 ? distance2 / (geometry.area(surface.shape) * cos_light) : 0;
 }
 
@@ -23,10 +24,7 @@ std::optional<LightSample> sample_area_light(const AreaEmitter& emitter, int sha
   const dvec3 radiance = emitted_area(emitter, geometry.scene(), surface, -wi);
   const double pdf = pdf_area_light(geometry, receiver, surface);
   if (!(pdf > 0) || is_black(radiance)) return std::nullopt;
-  // Mitsuba converts area to solid angle by the shading normal here; the difference shows on smooth emissive meshes
-  // alone, and its images are the standard.
-  const double shading = std::abs(glm::dot(surface.frame.n, wi) / glm::dot(surface.n_g, wi));
-  return LightSample{wi, radiance * (shading / pdf), pdf, false, surface.offset_towards(-wi)};
+  return LightSample{wi, radiance / pdf, pdf, false, surface.offset_towards(-wi)};
 }
 
 }  // namespace tachylite::reference
