@@ -3,7 +3,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -21,6 +20,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/read_file.h"
+#include "image/exr_header.h"
 #include "image/film.h"
 
 namespace tachylite {
@@ -89,38 +89,6 @@ std::pair<size_t, size_t> window_size(const FileLocation& where, const Imath::Bo
     throw InputError(where, fmt::format("the EXR image has {} channels of {} x {} pixels; that is too large",
                                         channels, w, h));
   return {width, height};
-}
-
-/// OpenEXR allocates by what the header says. Let it refuse what no image has, and check before it that the
-/// attributes (name, type, size, value; an empty name ends them, one more the headers of several parts) fit into the
-/// file.
-void check_header(const FileLocation& where, const std::filesystem::path& path) {
-  constexpr int kMaxSide = 1 << 17, kMaxTileSide = 1 << 12;
-  static const bool limited = [] {
-    Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
-    Imf::Header::setMaxTileSize(kMaxTileSide, kMaxTileSide);
-    return true;
-  }();
-  static_cast<void>(limited);
-
-  std::ifstream file(path, std::ios::binary);
-  const uintmax_t file_size = std::filesystem::file_size(path);
-  char version[8]{};  // magic number and version with flags
-  file.read(version, sizeof version);
-  const bool several = (version[5] & 0x10) != 0;
-  std::string word;
-  for (bool ended = true; std::getline(file, word, '\0');) {
-    if (word.empty() && (ended || !several)) return;
-    ended = word.empty();
-    if (ended) continue;
-    uint8_t size[4]{};
-    std::getline(file, word, '\0');
-    file.read(reinterpret_cast<char*>(size), sizeof size);
-    const uint64_t bytes = size[0] | size[1] << 8 | size[2] << 16 | uint64_t{size[3]} << 24;
-    if (!file || bytes > file_size)
-      throw InputError(where, "not a readable EXR file: an attribute is cut short");
-    file.seekg(static_cast<std::streamoff>(bytes), std::ios::cur);
-  }
 }
 
 Image read_part(const FileLocation& where, const std::filesystem::path& path, size_t max_pixels) {
@@ -219,7 +187,7 @@ Image read_exr(const std::filesystem::path& file, size_t max_pixels) {
   std::error_code failed;
   if (!std::filesystem::is_regular_file(file, failed)) throw InputError(where, "no such file");
   try {
-    check_header(where, file);
+    check_exr_header(where, file);
     return read_part(where, file, max_pixels);
   } catch (const InputError&) {
     throw;

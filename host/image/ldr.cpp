@@ -49,8 +49,32 @@ struct Source {
   static constexpr stbi_io_callbacks kCallbacks{&read, &skip, &eof};
 };
 
-/// What stb_image does not check in a JPEG: that entropy-coded data go on to the end marker (else the rest is
-/// grey), and that a Huffman table has at most 256 codes (else it writes past its own).
+/// The tables that a JPEG has defined, a bit each, by class and number.
+struct JpegTables {
+  uint32_t huffman[2] = {0, 0};  // dc, ac
+  uint32_t quantisation = 0;
+  uint32_t used_quantisation = 0;  // by the frame's components
+  bool progressive = false;
+};
+
+/// Whether a scan with that header (count; component and tables of each; start, end and bits of the coefficients) finds
+/// its tables.
+bool has_tables(const JpegTables& tables, std::string_view scan) {
+  const auto byte = [&](size_t i) { return i < scan.size() ? static_cast<uint8_t>(scan[i]) : 0u; };
+  const size_t count = byte(0);
+  const bool first_dc = byte(1 + 2 * count) == 0, refines = byte(3 + 2 * count) >> 4 != 0;
+  const bool dc = !tables.progressive || (first_dc && !refines), ac = !tables.progressive || !first_dc;
+  for (size_t i = 0; i < count; ++i) {
+    const uint32_t which = byte(2 + 2 * i);
+    if (dc && !(tables.huffman[0] >> (which >> 4) & 1)) return false;
+    if (ac && !(tables.huffman[1] >> (which & 15) & 1)) return false;
+  }
+  return (tables.used_quantisation & ~tables.quantisation) == 0;
+}
+
+/// What stb_image does not check in a JPEG: that entropy-coded data go on to the end marker (else the rest is grey),
+/// that a Huffman table has at most 256 codes (else it writes past its own), and that a scan's tables have been
+/// defined (else it decodes by what memory held before).
 void check_jpeg(const FileLocation& where, std::string_view bytes) {
   const size_t first = bytes.find_first_not_of('\xff');  // fill bytes may stand before a marker
   if (first == 0 || first == bytes.npos || bytes[first] != '\xd8') return;
@@ -58,6 +82,7 @@ void check_jpeg(const FileLocation& where, std::string_view bytes) {
     if (i >= bytes.size()) throw InputError(where, "the image file is cut short");
     return static_cast<unsigned char>(bytes[i]);
   };
+  JpegTables tables;
   for (size_t i = first + 1;;) {
     // Markers are 0xff and a code other than 0xff (padding), 0 (a data byte 0xff) and the restarts inside
     // scans.
@@ -71,8 +96,19 @@ void check_jpeg(const FileLocation& where, std::string_view bytes) {
         size_t codes = 0;
         for (size_t k = 1; k <= 16; ++k) codes += byte(table + k);
         if (codes > 256) throw InputError(where, "the image cannot be decoded: broken Huffman table");
+        tables.huffman[byte(table) >> 4 & 1] |= 1u << (byte(table) & 15);
         table += 17 + codes;
       }
+    if (marker == 0xdb)  // quantisation tables: precision and number, 64 values
+      for (size_t table = begin; table < end; table += byte(table) >> 4 == 0 ? 65 : 129)
+        tables.quantisation |= 1u << (byte(table) & 15);
+    if (marker >= 0xc0 && marker <= 0xc2) {  // frame: 6 bytes, then 3 a component, of which the last names a table
+      tables.progressive = marker == 0xc2;
+      for (size_t component = begin + 6; component + 2 < end; component += 3)
+        tables.used_quantisation |= 1u << (byte(component + 2) & 15);
+    }
+    if (marker == 0xda && !has_tables(tables, bytes.substr(begin, end - begin)))
+      throw InputError(where, "the image cannot be decoded: a table is missing");
     i = end;
   }
 }
