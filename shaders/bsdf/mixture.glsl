@@ -74,7 +74,9 @@ BsdfSample sample_bsdf(SurfaceBsdf b, vec2 u, float u_lobe) {
 
   if ((s.flags & kLobeDelta) == 0u) {
     BsdfEval mixture = eval_bsdf(b, s.wi);
-    bool alone = weight >= 1.0;  // then its own weight is exact
+    // Alone, its own weight is exact, also where the density rounds to 0: what the ray finds there counts in full
+    // (path/mis.glsl), as light sampling evaluates 0 there.
+    bool alone = weight >= 1.0;
     if (!alone && s.pdf > 0.0) s.weight = mixture.f / mixture.pdf;
     s.pdf = s.pdf > 0.0 ? mixture.pdf : 0.0;
     // What a leaf has drawn at the edge of its domain may, rounded, lie outside of it.

@@ -1,6 +1,6 @@
 // Every bsdf draws from the density it claims, and weighs by it: on the device, over materials, roughness, angle of
-// incidence and eta. The level of all tests together is 1e-4; a test sees deviations of the density of about 10 %
-// (root of the mean square, relative) with a power of 0.99.
+// incidence and eta. The level of each test is 1e-4; deviations of the density of about 8 % (root of the
+// mean square, relative) at one angle of one material are seen with a power of 0.99.
 
 #include <cmath>
 #include <numbers>
@@ -12,6 +12,7 @@
 #include "shared/material.h"
 #include "statistics/bsdf_materials.h"
 #include "statistics/bsdf_probe.h"
+#include "support/adaptive_bins.h"
 #include "support/chi2.h"
 #include "support/device_test.h"
 
@@ -19,35 +20,12 @@ namespace tachylite::test {
 namespace {
 
 constexpr int kSamples = 20000;
+constexpr int kPilotSamples = 6000;
 constexpr double kPi = std::numbers::pi;
 
 glm::vec3 direction(double degrees, double azimuth = 0.4) {
   const double theta = degrees * kPi / 180;
   return glm::vec3(std::sin(theta) * std::cos(azimuth), std::sin(theta) * std::sin(azimuth), std::cos(theta));
-}
-
-/// Bins where the lobes of a material are: the sphere where they are wide, else about the mirror direction and the
-/// refracted one.
-std::vector<SphereBins::Options> bins_for(const MaterialCase& c, const glm::vec3& wo) {
-  const SphereBins::Options sphere{.polar_bins = 20, .azimuth_bins = 16, .order = 20};
-  if (c.alpha >= 0.2) return {sphere};
-  std::vector<SphereBins::Options> result;
-  const auto about = [&](const glm::dvec3& axis, double spread) {
-    const double omc = 1 - std::cos(std::min(kPi, spread));
-    result.push_back({.polar_bins = 14, .azimuth_bins = 12, .order = 10, .axis = glm::normalize(axis),
-                      .omc_max = std::max(omc, 0.5 * spread * spread * 0.999), .exponent = 2});
-    if (result.back().omc_max > 2) result.back().omc_max = 2;
-  };
-  const glm::dvec3 o(wo);
-  about({-o.x, -o.y, o.z}, 12 * c.alpha);
-  const double eta = wo.z > 0 ? c.eta : 1 / c.eta;
-  const double cos_t2 = 1 - (1 - o.z * o.z) / (eta * eta);
-  if (c.eta != 1 && cos_t2 > 0) {
-    const double cos_t = std::sqrt(cos_t2);
-    about({-o.x / eta, -o.y / eta, std::copysign(cos_t, -o.z)},
-          std::min(12 * c.alpha * std::abs(1 - 1 / eta) / std::max(cos_t, 0.1), 1.0));
-  }
-  return result;
 }
 
 std::vector<BsdfQuery> sample_queries(int bsdf, const glm::vec3& wo, int count, uint32_t seed) {
@@ -59,30 +37,34 @@ std::vector<BsdfQuery> sample_queries(int bsdf, const glm::vec3& wo, int count, 
   return queries;
 }
 
+std::vector<glm::vec4> directions_of(const std::vector<BsdfAnswer>& answers) {
+  std::vector<glm::vec4> directions;
+  for (const BsdfAnswer& a : answers)
+    directions.emplace_back(a.pdf > 0 && !a.delta() ? a.wi : glm::vec3(0), a.f_pdf);
+  return directions;
+}
+
 struct Bsdf : DeviceTest {};
 
-void expect_density(const std::vector<MaterialCase>& cases) {
+void expect_density(const std::vector<MaterialCase>& cases, const std::vector<double>& angles) {
   std::vector<BsdfKind> kinds;
   for (const MaterialCase& c : cases) kinds.push_back(c.kind);
   BsdfProbe probe(scene_of_bsdfs(kinds));
-  const std::vector<double> angles = {0, 30, 60, 85, 95, 140, 180};
   const double level = sidak(1e-4, 4 * static_cast<int>(cases.size() * angles.size()));
   for (size_t i = 0; i < cases.size(); ++i) {
     const MaterialCase& c = cases[i];
-    if ((probe.material_class(static_cast<int>(i)).flags & gpu::kMaterialSmooth) == 0) continue;
+    const int bsdf = static_cast<int>(i);
+    if ((probe.material_class(bsdf).flags & gpu::kMaterialSmooth) == 0) continue;
     for (const double angle : angles) {
       if (angle > 90 && !c.two_sided) continue;
-      // A narrow lobe at a grazing angle is cut by the horizon inside the bins, and no quadrature of them converges:
-      // bsdf_grazing_test.
-      if (c.alpha < 0.2 && std::abs(std::cos(angle * kPi / 180)) < 0.3) continue;
-      SCOPED_TRACE(fmt::format("{}, {} degrees", c.name, angle));
       const glm::vec3 wo = direction(angle);
-      const auto answers = probe.ask(sample_queries(static_cast<int>(i), wo, kSamples, 17));
-      std::vector<glm::vec4> directions;
+      // Two directions near the horizon, rounded, have lost the half vector of a narrow lobe: bsdf_grazing_test.
+      if (6e-8 / c.alpha / std::abs(wo.z) > 1e-3) continue;
+      SCOPED_TRACE(fmt::format("{}, {} degrees", c.name, angle));
+      const auto answers = probe.ask(sample_queries(bsdf, wo, kSamples, 17));
       double worst_weight = 0, worst_pdf = 0;
       for (const BsdfAnswer& a : answers) {
-        directions.emplace_back(a.pdf > 0 ? a.wi : glm::vec3(0), 0);
-        if (a.pdf == 0) continue;
+        if (a.pdf == 0 || a.delta()) continue;
         worst_pdf = std::max(worst_pdf, std::abs(double(a.f_pdf) / a.pdf - 1));
         for (int k = 0; k < 3; ++k) {
           const double w = double(a.f[k]) / a.f_pdf;
@@ -92,25 +74,38 @@ void expect_density(const std::vector<MaterialCase>& cases) {
       }
       EXPECT_LT(worst_weight, 1e-3);
       EXPECT_LT(worst_pdf, std::max(1e-3, 3e-6 / c.alpha));
-      for (const SphereBins::Options& options : bins_for(c, wo)) {
-        const SphereBins bins(options);
+      const auto pilot = directions_of(probe.ask(sample_queries(bsdf, wo, kPilotSamples, 31)));
+      const AdaptiveBins bins(pilot, kPilotSamples / 100, -glm::dvec3(wo));
+      const auto density = [&](std::span<const glm::dvec3> points) {
         std::vector<BsdfQuery> queries;
-        for (const glm::vec4& p : bins.quadrature_points())
-          queries.push_back({.bsdf = static_cast<int>(i), .wo = wo, .wi = glm::vec3(p)});
-        std::vector<float> pdf;
+        for (const glm::dvec3& p : points) queries.push_back({.bsdf = bsdf, .wo = wo, .wi = glm::vec3(p)});
+        std::vector<double> pdf;
         for (const BsdfAnswer& a : probe.ask(queries)) pdf.push_back(a.f_pdf);
-        std::vector<double> expected = bins.expected(pdf, kSamples);
-        if (expected.back() < 0 && expected.back() > -1e-3 * kSamples) expected.back() = 1e-9;  // quadrature error
-        const Chi2Result result = chi2_test(bins.count(directions), expected, level);
-        EXPECT_TRUE(result.accepted) << result.message << ", integral " << bins.integral(pdf) << " omc max "
-                                     << options.omc_max;
-      }
+        return pdf;
+      };
+      const std::vector<double> expected = bins.expected(density, kSamples), observed = bins.count(directions_of(answers));
+      const Chi2Result result = chi2_test(observed, expected, level);
+      EXPECT_TRUE(result.accepted) << result.message << ", refused " << observed.back() << " of " << expected.back();
     }
   }
 }
 
-TEST_F(Bsdf, AllMaterialsDrawFromTheirDensity) { expect_density(all_materials()); }
-TEST_F(Bsdf, RoughOnesDrawFromTheirDensity) { expect_density(rough_materials()); }
+const std::vector<double> kAngles = {0, 50, 85, 89, 89.9, 90.1, 130, 180};
+
+TEST_F(Bsdf, AllMaterialsDrawFromTheirDensity) { expect_density(all_materials(), kAngles); }
+TEST_F(Bsdf, CoatedOnesDrawFromTheirDensity) { expect_density(coated_materials(), kAngles); }
+
+// Seen from both sides, an interface has the eta of another one: at each roughness every other eta suffices.
+TEST_F(Bsdf, RoughOnesDrawFromTheirDensity) {
+  std::vector<MaterialCase> cases;
+  int interfaces = 0;
+  for (const MaterialCase& c : rough_materials()) {
+    const int i = interfaces;
+    if (c.eta != 1) ++interfaces;
+    if (c.eta == 1 || (i % 4 + i / 4) % 2 == 0) cases.push_back(c);
+  }
+  expect_density(cases, kAngles);
+}
 
 }  // namespace
 }  // namespace tachylite::test

@@ -1,7 +1,7 @@
 // Rough materials seen at grazing angles, and lobes that the horizon cuts: bins that follow the lobe (LobeBins) against
 // densities in double precision. The half vector of two float32 directions close to the horizon has lost the slope of
 // its facet (to 6e-8 / cos theta), so that the device's own density serves only where that is small against alpha.
-// Level of each test 1e-4; deviations of the density of about 15 % (root of the mean square) are seen with a power of
+// Level of each test 1e-4; deviations of the density of about 7 % (root of the mean square) are seen with a power of
 // 0.99.
 
 #include <cmath>
@@ -21,7 +21,7 @@
 namespace tachylite::test {
 namespace {
 
-constexpr int kSamples = 10000;
+constexpr int kSamples = 40000;
 constexpr double kPi = std::numbers::pi;
 
 double sqr(double x) { return x * x; }
@@ -93,7 +93,7 @@ TEST_F(BsdfGrazing, NarrowReflectionsFollowTheirDensity) {
   const double level = sidak(1e-4, static_cast<int>(cases.size() * angles.size()));
   for (size_t i = 0; i < cases.size(); ++i) {
     const MaterialCase& c = cases[i];
-    if (c.alpha > 0.2) continue;  // these bins are too coarse for wide lobes at the horizon: bsdf_chi2_test
+    if (c.alpha > 0.02) continue;  // wide enough for the device's own density: bsdf_chi2_test
     const bool metal = c.eta == 1, ggx = c.name.find("ggx") != std::string::npos;
     for (const double angle : angles) {
       if (angle > 90 && !c.two_sided) continue;
@@ -132,7 +132,7 @@ TEST_F(BsdfGrazing, NarrowRefractionsFollowTheirDensity) {
   const double level = sidak(1e-4, static_cast<int>(cases.size()));
   for (size_t i = 0; i < cases.size(); ++i) {
     const MaterialCase& c = cases[i];
-    if (c.alpha > 0.2 || c.eta == 1) continue;
+    if (c.alpha > 0.02 || c.eta == 1) continue;
     SCOPED_TRACE(c.name);
     const double dense = std::max(c.eta, 1 / c.eta);
     if (c.alpha * (1 - 1 / dense) < 1.01e-5) continue;  // light passes as through a smooth interface

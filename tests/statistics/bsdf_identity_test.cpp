@@ -56,6 +56,11 @@ TEST_F(BsdfIdentity, RoughWithoutRoughnessIsSmooth) {
   expect_same({}, RoughDielectricBsdf{1.5, smooth()}, DielectricBsdf{1.5});
   expect_same({}, RoughConductorBsdf{smooth()}, ConductorBsdf{});
   expect_same({}, RoughPlasticBsdf{1.49, smooth()}, PlasticBsdf{1.49});
+  // Below the roughness that rounded directions can tell from none.
+  for (const auto d : {MicrofacetDistribution::kGgx, MicrofacetDistribution::kBeckmann}) {
+    expect_same({}, RoughDielectricBsdf{1.5, {d, 1e-5, 1e-5}}, DielectricBsdf{1.5});
+    expect_same({}, RoughConductorBsdf{{d, 1e-5, 1e-5}}, ConductorBsdf{});
+  }
 }
 TEST_F(BsdfIdentity, MatchedIndexIsNothing) {
   expect_same({}, DielectricBsdf{1.0}, NullBsdf{});
@@ -110,6 +115,40 @@ TEST_F(BsdfIdentity, ConstantTextureIsItsValue) {
   pair(MicrofacetBsdf{0.5, 0.25}, MicrofacetBsdf{color(0.5), scalar(0.25)});
   pair(PaperBsdf{0.5, 0.25}, PaperBsdf{color(0.5), scalar(0.25)});
   pair(MaskBsdf{0, 0.25}, MaskBsdf{0, scalar(0.25)});
+  pair(BlendBsdf{0, 8, 0.25}, BlendBsdf{0, 8, scalar(0.25)});
+  for (const bool nonlinear : {false, true}) {
+    pair(PlasticBsdf{1.5, 0.5, 0.75, nonlinear}, PlasticBsdf{1.5, color(0.5), color(0.75), nonlinear});
+    pair(RoughPlasticBsdf{1.5, {}, 0.5, 0.75, nonlinear}, RoughPlasticBsdf{1.5, {}, color(0.5), color(0.75), nonlinear});
+  }
+  const Roughness plain{MicrofacetDistribution::kGgx, 0.5, 0.125};
+  const Roughness textured{MicrofacetDistribution::kGgx, scalar(0.5), scalar(0.125)};
+  pair(RoughConductorBsdf{plain}, RoughConductorBsdf{textured});
+  pair(RoughDielectricBsdf{1.5, plain}, RoughDielectricBsdf{1.5, textured});
+  pair(BlinnPhongBsdf{0.5, 0.25, 16.0, 1.0}, BlinnPhongBsdf{color(0.5), color(0.25), scalar(16.0), scalar(1.0)});
+  pair(BlinnPhongBsdf{0.5, 0.25, 16.0, 0.0}, BlinnPhongBsdf{color(0.5), color(0.25), scalar(16.0), scalar(0.0)});
+  // Every parameter another value: exchanged ones show.
+  const auto principled = [](const auto& color_of, const auto& scalar_of) {
+    PrincipledBsdf b;
+    b.eta = 1.5;
+    b.base_color = color_of(0.625);
+    ScalarInput* inputs[] = {&b.roughness, &b.anisotropic, &b.metallic, &b.spec_trans, &b.spec_tint,
+                             &b.sheen, &b.sheen_tint, &b.flatness, &b.clearcoat, &b.clearcoat_gloss};
+    for (int i = 0; i < 10; ++i) *inputs[i] = scalar_of((i + 3) / 16.0);
+    return b;
+  };
+  const auto principled_thin = [](const auto& color_of, const auto& scalar_of) {
+    PrincipledThinBsdf b;
+    b.base_color = color_of(0.625);
+    ScalarInput* inputs[] = {&b.roughness, &b.anisotropic, &b.spec_trans, &b.spec_tint, &b.sheen,
+                             &b.sheen_tint, &b.flatness, &b.diff_trans};
+    for (int i = 0; i < 8; ++i) *inputs[i] = scalar_of((i + 3) / 16.0);
+    b.eta = scalar_of(1.75);
+    return b;
+  };
+  const auto constant_color = [](double v) { return ColorInput(v); };
+  const auto constant_scalar = [](double v) { return ScalarInput(v); };
+  pair(principled(constant_color, constant_scalar), principled(color, scalar));
+  pair(principled_thin(constant_color, constant_scalar), principled_thin(color, scalar));
   const size_t count = scene.bsdfs.size();
   BsdfProbe probe(std::move(scene));
   for (size_t i = 0; i < count; i += 2) {
@@ -138,6 +177,31 @@ TEST_F(BsdfIdentity, AnswersAreFinite) {
         ASSERT_TRUE(std::isfinite(a.f[k]) && a.f[k] >= 0) << cases[i].name;
       }
       ASSERT_TRUE(std::isfinite(a.pdf) && a.pdf >= 0 && std::isfinite(a.f_pdf) && a.f_pdf >= 0) << cases[i].name;
+    }
+  }
+}
+
+// What a leaf draws at the edge of its domain lies, rounded, outside of it; at eta = 1.0001 refraction hardly bends, and
+// that happens often.
+TEST_F(BsdfIdentity, BlendsOfNearlyMatchedGlassAreFinite) {
+  std::vector<BsdfKind> kinds = {DiffuseBsdf{0.5}};
+  for (const auto d : {MicrofacetDistribution::kGgx, MicrofacetDistribution::kBeckmann})
+    for (const double eta : {1.0001, 1 / 1.0001, 1.01})
+      for (const double alpha : {0.15, 1.0}) {
+        kinds.push_back(RoughDielectricBsdf{eta, {d, alpha, alpha}});
+        const auto glass = static_cast<BsdfIndex>(kinds.size()) - 1;
+        kinds.push_back(BlendBsdf{0, glass, 0.5});
+        kinds.push_back(BlendBsdf{glass, glass, 0.5});
+      }
+  BsdfProbe probe(scene_of_bsdfs(kinds));
+  for (size_t i = 1; i < kinds.size(); ++i) {
+    for (const BsdfAnswer& a : probe.ask(queries_for(static_cast<int>(i), 4096))) {
+      for (int k = 0; k < 3; ++k) {
+        // Reflectances are 1; radiance grows by 1.01^2 at most.
+        ASSERT_TRUE(a.weight[k] >= 0 && a.weight[k] < 2.5f) << "material " << i << ", weight " << a.weight[k];
+        ASSERT_TRUE(std::isfinite(a.f[k]) && a.f[k] >= 0) << "material " << i;
+      }
+      ASSERT_TRUE(std::isfinite(a.pdf) && a.pdf >= 0 && std::isfinite(a.f_pdf) && a.f_pdf >= 0) << "material " << i;
     }
   }
 }

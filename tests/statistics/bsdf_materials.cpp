@@ -1,5 +1,7 @@
 #include "statistics/bsdf_materials.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 namespace tachylite::test {
@@ -85,10 +87,36 @@ std::vector<MaterialCase> all_materials() {
   return cases;
 }
 
+std::vector<MaterialCase> coated_materials() {
+  std::vector<MaterialCase> cases;
+  for (const double alpha : {0.01, 0.1, 1.0}) {
+    for (const auto d : {kGgx, kBeckmann})
+      cases.push_back({.name = fmt::format("roughplastic {} {}", name_of(d), alpha),
+                       .kind = RoughPlasticBsdf{1.9, rough(d, alpha, alpha), dvec3(0.9, 0.5, 0.1)}, .alpha = alpha});
+    cases.push_back({.name = fmt::format("microfacet {}", alpha),
+                     .kind = MicrofacetBsdf{dvec3(0.5, 0.3, 0.1), alpha}, .alpha = alpha});
+    for (const double spec_trans : {0.0, 0.5}) {
+      PrincipledBsdf p = principled();
+      p.roughness = std::sqrt(alpha);
+      p.spec_trans = spec_trans;
+      p.clearcoat = 1.0;
+      p.clearcoat_gloss = 0.9;
+      cases.push_back({.name = fmt::format("principled {} spec_trans {}", alpha, spec_trans), .kind = p,
+                       .alpha = 0.01, .eta = 1.5, .two_sided = spec_trans > 0, .conserves = false});
+    }
+    PrincipledThinBsdf t = principled_thin();
+    t.roughness = std::sqrt(alpha);
+    t.spec_trans = 0.5;
+    cases.push_back({.name = fmt::format("principledthin {}", alpha), .kind = t, .alpha = alpha, .two_sided = true,
+                     .reciprocal = false});
+  }
+  return cases;
+}
+
 std::vector<MaterialCase> rough_materials() {
   std::vector<MaterialCase> cases;
   for (const auto d : {kGgx, kBeckmann}) {
-    for (const double alpha : {4e-5, 1e-4, 1e-3, 0.01, 0.1, 0.3, 1.0}) {
+    for (const double alpha : {2.1e-5, 4e-5, 1e-3, 0.01, 0.1, 0.3, 1.0}) {
       cases.push_back({.name = fmt::format("roughconductor {} {}", name_of(d), alpha),
                        .kind = RoughConductorBsdf{rough(d, alpha, alpha), kGoldEta, kGoldK},
                        .alpha = alpha});

@@ -22,6 +22,9 @@ struct MaterialCase {
 /// One of each type and variant, at middling parameters.
 std::vector<MaterialCase> all_materials();
 
+/// Rough coats and interfaces on or beside other lobes, narrow and wide.
+std::vector<MaterialCase> coated_materials();
+
 /// The rough ones over distribution, roughness and eta.
 std::vector<MaterialCase> rough_materials();
 
