@@ -26,6 +26,8 @@ class SlotAssignment {
       : count_(count), free_sides_(free_sides) {
     std::array<Box, kBvhWidth> boxes;
     for (uint32_t i = 0; i < count; ++i) boxes[i] = nodes[inner[i]].box();
+    for (auto& axis : gain_)
+      for (uint32_t i = 0; i < count; ++i) axis[i][i] = 0;
     for (uint32_t i = 0; i < count; ++i)
       for (uint32_t j = 0; j < i; ++j) compare(boxes[i], boxes[j], i, j);
   }
@@ -70,22 +72,29 @@ class SlotAssignment {
 
   void halve(uint32_t set, uint32_t axis) {
     const uint32_t room = 1u << axis;  // slots on each side
+    // What a member gains on the negative side if all others were on the positive one. As the gains within the negative
+    // side cancel each other (gain_ is antisymmetric), those of its members add up.
+    std::array<float, kBvhWidth> alone;
+    for (uint32_t l = set; l; l &= l - 1) {
+      const auto i = static_cast<uint32_t>(std::countr_zero(l));
+      alone[i] = 0;
+      for (uint32_t h = set; h; h &= h - 1) alone[i] += gain_[axis][i][static_cast<uint32_t>(std::countr_zero(h))];
+    }
     float best = -std::numeric_limits<float>::infinity();
     uint32_t best_low = 0;
-    for (uint32_t low = set;; low = (low - 1) & set) {
+    std::array<float, kSets> sums;
+    sums[0] = 0;
+    for (uint32_t low = 0;; low = (low - set) & set) {  // all subsets, upwards
+      if (low) sums[low] = sums[low & (low - 1)] + alone[static_cast<uint32_t>(std::countr_zero(low))];
       const uint32_t high = set ^ low;
       if (kSize[low] <= room && kSize[high] <= room) {
-        float gain = axis ? gains_[axis - 1][low] + gains_[axis - 1][high] : 0;
-        for (uint32_t l = low; l; l &= l - 1)
-          for (uint32_t h = high; h; h &= h - 1)
-            gain += gain_[axis][static_cast<uint32_t>(std::countr_zero(l))]
-                         [static_cast<uint32_t>(std::countr_zero(h))];
+        const float gain = sums[low] + (axis ? gains_[axis - 1][low] + gains_[axis - 1][high] : 0);
         if (gain > best) {
           best = gain;
           best_low = low;
         }
       }
-      if (low == 0) break;
+      if (low == set) break;
     }
     gains_[axis][set] = best;
     lows_[axis][set] = static_cast<uint8_t>(best_low);

@@ -12,6 +12,7 @@ namespace tachylite {
 namespace {
 
 constexpr int kMaxBins = 64;
+constexpr size_t kExactRange = 4;         // ranges of at most as many are divided in the best of all ways
 constexpr size_t kParallelRange = 1 << 12;  // ranges of fewer primitives are built by one thread
 
 struct Split {
@@ -99,34 +100,14 @@ class Builder {
                 Box& right_centres) {
     const size_t n = end - begin;
     size_t middle = begin + n / 2;
-    if (n == 2) {
-      left_centres.grow(centre2(primitives_[begin].box()));
-      right_centres.grow(centre2(primitives_[begin + 1].box()));
-      return middle;
-    }
     const bool deep = depth + static_cast<int>(std::bit_width(n - 1)) >= max_depth_;
+    if (n <= kExactRange && !deep) return divide_exactly(begin, n);
     const int bins = std::min<int>(bins_, static_cast<int>(4 + std::min<size_t>(n, 1 << 16) / 16));
     const BinMapping mapping(centres, bins);
     Split split;
     if (!deep) split = find_split(begin, end, mapping);
     if (split.axis >= 0) {
-      const auto is_left = [&](const BinaryNode& p) {
-        return mapping(centre2(p.box()))[split.axis] < split.bin;
-      };
-      size_t i = begin, j = end;
-      for (;;) {
-        for (; i < j; ++i) {
-          if (!is_left(primitives_[i])) break;
-          left_centres.grow(centre2(primitives_[i].box()));
-        }
-        for (; i < j; --j) {
-          if (is_left(primitives_[j - 1])) break;
-          right_centres.grow(centre2(primitives_[j - 1].box()));
-        }
-        if (i == j) break;
-        std::swap(primitives_[i], primitives_[j - 1]);
-      }
-      middle = i;
+      middle = partition(begin, end, mapping, split, left_centres, right_centres);
     } else {
       // All centres coincide, or the tree must not grow deeper: halves along the longest axis.
       const Lanes d = centres.hi - centres.lo;
@@ -141,6 +122,61 @@ class Builder {
       right_centres = range_centres(middle, end);
     }
     return middle;
+  }
+
+  /// Without branches (Lomuto's scheme), as no processor foresees which side a primitive goes to.
+  size_t partition(size_t begin, size_t end, const BinMapping& mapping, const Split& split, Box& left_centres,
+                   Box& right_centres) {
+    const int axis = split.axis;
+    const float origin = mapping.origin[axis], scale = mapping.scale[axis];
+    const Box none;
+    Box left, right;
+    size_t middle = begin;
+    for (size_t i = begin; i < end; ++i) {
+      const BinaryNode p = primitives_[i];
+      const int is_left = static_cast<int>((p.lo[axis] + p.hi[axis] - origin) * scale) < split.bin;
+      primitives_[i] = primitives_[middle];
+      primitives_[middle] = p;
+      middle += static_cast<size_t>(is_left);
+      const Lanes centre = centre2(p.box());
+      const IntLanes goes_left = IntLanes{} - is_left;
+      left.lo = min(left.lo, goes_left ? centre : none.lo);
+      left.hi = max(left.hi, goes_left ? centre : none.hi);
+      right.lo = min(right.lo, goes_left ? none.lo : centre);
+      right.hi = max(right.hi, goes_left ? none.hi : centre);
+    }
+    left_centres = left;
+    right_centres = right;
+    return middle;
+  }
+
+  /// Of 2 to kExactRange primitives; they need no centres. Puts the left side first and returns where the right begins.
+  size_t divide_exactly(size_t begin, size_t n) {
+    std::array<Box, 1 << kExactRange> boxes;  // of each set of primitives
+    std::array<uint32_t, 1 << kExactRange> sizes;
+    sizes[0] = 0;
+    const uint32_t all = (1u << n) - 1;
+    for (uint32_t set = 1; set <= all; ++set) {
+      const uint32_t others = set & (set - 1);
+      boxes[set] = merge(boxes[others], primitives_[begin + static_cast<size_t>(std::countr_zero(set))].box());
+      sizes[set] = sizes[others] + 1;
+    }
+    float best = std::numeric_limits<float>::infinity();
+    uint32_t left = 1;
+    for (uint32_t set = 1; set < all; set += 2) {  // the first is on the left
+      const float cost = half_area(boxes[set]) * static_cast<float>(sizes[set] - 1) +
+                         half_area(boxes[all ^ set]) * static_cast<float>(n - sizes[set] - 1);
+      if (cost < best) {
+        best = cost;
+        left = set;
+      }
+    }
+    const auto range = primitives_.begin() + static_cast<ptrdiff_t>(begin);
+    std::array<BinaryNode, kExactRange> copy;
+    std::copy_n(range, n, copy.begin());
+    size_t low = 0, high = sizes[left];
+    for (size_t i = 0; i < n; ++i) range[static_cast<ptrdiff_t>(left >> i & 1 ? low++ : high++)] = copy[i];
+    return begin + sizes[left];
   }
 
   Split find_split(size_t begin, size_t end, const BinMapping& mapping) const {

@@ -93,8 +93,18 @@ void write_leaves(const BvhInput& input, const std::vector<TrianglePair>& pairs,
                   const std::vector<uint32_t>& leaf_primitives, Bvh8& bvh) {
   bvh.leaves.resize(leaf_primitives.size() * gpu::kBvhLeafRows);
   bvh.leaf_info.resize(leaf_primitives.size());
+  const auto pair_at = [&](size_t i, size_t last) -> const TrianglePair* {
+    return i < last && leaf_primitives[i] < pairs.size() ? &pairs[leaf_primitives[i]] : nullptr;
+  };
   parallel_for(0, leaf_primitives.size(), kGrain, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
+      // Leaves are in the order of the tree, which the mesh need not have: ask for its parts ahead of time.
+      constexpr size_t kAhead = 16;
+      if (const TrianglePair* p = pair_at(i + 3 * kAhead, last)) __builtin_prefetch(p);
+      if (const TrianglePair* p = pair_at(i + 2 * kAhead, last)) __builtin_prefetch(&input.triangles[p->first]);
+      if (const TrianglePair* p = pair_at(i + kAhead, last))
+        for (int k = 0; k < 3; ++k) __builtin_prefetch(&input.vertices[input.triangles[p->first][k]]);
+
       glm::vec4* row = &bvh.leaves[i * gpu::kBvhLeafRows];
       const uint32_t primitive = leaf_primitives[i];
       if (primitive < pairs.size()) {

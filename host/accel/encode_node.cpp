@@ -27,13 +27,13 @@ void QuantisationGrid::set_step(float lo) {
 }
 
 uint32_t QuantisationGrid::lower(float x) const {
-  auto q = static_cast<uint32_t>(std::min(255.0, std::floor((static_cast<double>(x) - p) / step)));
+  auto q = static_cast<uint32_t>(std::min(255.0, (static_cast<double>(x) - p) / step));
   while (q > 0 && !at_most(q, x)) --q;
   return q;
 }
 
 uint32_t QuantisationGrid::upper(float x) const {
-  auto q = static_cast<uint32_t>(std::min(255.0, std::ceil((static_cast<double>(x) - p) / step)));
+  auto q = static_cast<uint32_t>(std::min(255.0, (static_cast<double>(x) - p) / step));
   while (!at_least(q, x)) ++q;
   return q;
 }

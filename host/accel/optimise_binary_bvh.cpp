@@ -13,31 +13,53 @@ struct Move {
 
 /// Searches run in parallel against an unchanging tree; moves are made one after another, best first, leaving
 /// out those whose surroundings an earlier one has changed. (The paper makes them in parallel, under locks.)
+/// Other than in the paper, a node that found no better place is not asked again until a box beside it changes: most
+/// find none, and without that every pass asks them anew.
 class Reinserter {
  public:
-  explicit Reinserter(std::vector<BinaryNode>& nodes) : nodes_(nodes), parents_(nodes.size() / 2, 0) {
+  /// Moves only the children of the `most` largest nodes.
+  Reinserter(std::vector<BinaryNode>& nodes, size_t most)
+      : nodes_(nodes), parents_(nodes.size() / 2, 0), settled_(nodes.size(), 0), touched_(nodes.size(), 0) {
     parallel_for(BinaryBvh::kRoot, nodes.size(), kGrain, [&](size_t first, size_t last) {
       for (size_t i = first; i < last; ++i)
         if (!nodes_[i].is_leaf) parents_[nodes_[i].first / 2] = static_cast<uint32_t>(i);
     });
+    std::vector<Candidate> parents(nodes.size() / 2 - 1);
+    parallel_for(0, parents.size(), kGrain, [&](size_t first, size_t last) {
+      for (size_t i = first; i < last; ++i) {
+        const uint32_t parent = parents_[i + 1];
+        parents[i] = {half_area(nodes_[parent].box()), nodes_[parent].first};
+      }
+    });
+    keep_best(parents, most);
+    for (const Candidate& c : parents) {
+      movable_.push_back(c.node);
+      movable_.push_back(c.node + 1);
+    }
   }
 
   /// Tries to move `count` nodes; the half area that was saved.
   double pass(size_t count) {
     std::vector<Move> moves = find_moves(misplaced_nodes(count));
+    for (const Move& m : moves) settled_[m.node] = m.target == 0;
     std::erase_if(moves, [](const Move& m) { return m.target == 0; });
     std::sort(moves.begin(), moves.end(), [](const Move& a, const Move& b) {
       return a.gain > b.gain || (a.gain == b.gain && a.node < b.node);
     });
-    touched_.assign(nodes_.size(), 0);
+    std::vector<uint32_t> all_touched;
     double saved = 0;
     for (const Move& m : moves) {
       const uint32_t slots[] = {m.node, m.node ^ 1, parent(m.node), m.target};
       if (std::any_of(std::begin(slots), std::end(slots), [&](uint32_t s) { return touched_[s]; })) continue;
       if (is_ancestor(m.node, m.target)) continue;  // by an earlier move
-      for (uint32_t s : slots) touched_[s] = 1;
+      for (uint32_t s : slots) {
+        touched_[s] = 1;
+        settled_[s] = 0;
+        all_touched.push_back(s);
+      }
       saved += apply(m);
     }
+    for (uint32_t s : all_touched) touched_[s] = 0;
     return saved;
   }
 
@@ -46,35 +68,36 @@ class Reinserter {
 
   uint32_t parent(uint32_t node) const { return parents_[node / 2]; }
 
-  /// The `count` nodes whose removal alone saves most: it puts the sibling in the parent's place.
-  std::vector<uint32_t> misplaced_nodes(size_t count) const {
-    struct Candidate {
-      float saved;
-      uint32_t node;
-    };
-    constexpr uint32_t kFirst = 2;  // the root stays
-    std::vector<Candidate> all(nodes_.size() - kFirst);
-    parallel_for(0, all.size(), kGrain, [&](size_t first, size_t last) {
-      for (size_t i = first; i < last; ++i) {
-        const auto node = static_cast<uint32_t>(i + kFirst);
-        all[i] = {half_area(nodes_[parent(node)].box()) - half_area(nodes_[node ^ 1].box()), node};
-      }
-    });
-    if (count < all.size())
-      std::nth_element(all.begin(), all.begin() + static_cast<ptrdiff_t>(count), all.end(),
-                       [](const Candidate& a, const Candidate& b) {
-                         return a.saved > b.saved || (a.saved == b.saved && a.node < b.node);
-                       });
-    std::vector<uint32_t> nodes(std::min(count, all.size()));
-    for (size_t i = 0; i < nodes.size(); ++i) nodes[i] = all[i].node;
-    return nodes;
+  struct Candidate {
+    float area;
+    uint32_t node;
+  };
+
+  static void keep_best(std::vector<Candidate>& candidates, size_t count) {
+    if (count >= candidates.size()) return;
+    std::nth_element(candidates.begin(), candidates.begin() + static_cast<ptrdiff_t>(count), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) {
+                       return a.area > b.area || (a.area == b.area && a.node < b.node);
+                     });
+    candidates.resize(count);
   }
 
-  std::vector<Move> find_moves(const std::vector<uint32_t>& candidates) const {
+  /// The `count` nodes whose removal alone saves most, as it puts the sibling in the parent's place.
+  std::vector<Candidate> misplaced_nodes(size_t count) const {
+    std::vector<Candidate> all;
+    all.reserve(movable_.size());
+    for (uint32_t node : movable_)
+      if (!settled_[node])
+        all.push_back({half_area(nodes_[parent(node)].box()) - half_area(nodes_[node ^ 1].box()), node});
+    keep_best(all, count);
+    return all;
+  }
+
+  std::vector<Move> find_moves(const std::vector<Candidate>& candidates) const {
     std::vector<Move> moves(candidates.size());
     parallel_for(0, candidates.size(), 256, [&](size_t first, size_t last) {
       std::vector<Pending> stack;
-      for (size_t i = first; i < last; ++i) moves[i] = find_move(candidates[i], stack);
+      for (size_t i = first; i < last; ++i) moves[i] = find_move(candidates[i].node, stack);
     });
     return moves;
   }
@@ -152,6 +175,7 @@ class Reinserter {
       for (int a = 0; a < 3; ++a) same = same && n.lo[a] == box.lo[a] && n.hi[a] == box.hi[a];
       if (same) break;
       n.set_box(box);
+      settled_[node] = settled_[node ^ 1] = 0;
       saved += static_cast<double>(before) - after;
       if (node == BinaryBvh::kRoot) break;
     }
@@ -176,23 +200,28 @@ class Reinserter {
 
   std::vector<BinaryNode>& nodes_;
   std::vector<uint32_t> parents_;  // of each sibling pair
-  std::vector<uint8_t> touched_;
+  std::vector<uint32_t> movable_;
+  std::vector<uint8_t> settled_;  // nodes that found no better place
+  std::vector<uint8_t> touched_;  // in this pass
 };
 
 }  // namespace
 
 double optimise_binary_bvh(BinaryBvh& bvh, int max_passes) {
-  constexpr double kFraction =
-      0.05;  // of the nodes, in each pass: many small passes reach more than few large ones
-  constexpr double kWorthwhile = 1e-3;  // of the total area, in a pass
+  constexpr double kFraction = 0.005;  // of the nodes, in each pass: many small passes reach more than few large ones
+  constexpr double kMovable = 0.05;    // of the nodes are parents of those that are moved
+  constexpr size_t kLeast = 2000;      // of either
+  constexpr double kWorthwhile = 1e-4;  // of the total area, in a pass
   if (bvh.nodes.size() < 8) return 0;
   double area = 0, saved = 0;
   for (size_t i = BinaryBvh::kRoot; i < bvh.nodes.size(); ++i)
     if (!bvh.nodes[i].is_leaf) area += half_area(bvh.nodes[i].box());
-  Reinserter reinserter(bvh.nodes);
+  const auto part = [&](double fraction) {
+    return std::max<size_t>(static_cast<size_t>(fraction * static_cast<double>(bvh.nodes.size())), kLeast);
+  };
+  Reinserter reinserter(bvh.nodes, part(kMovable));
   for (int i = 0; i < max_passes; ++i) {
-    const double pass =
-        reinserter.pass(static_cast<size_t>(kFraction * static_cast<double>(bvh.nodes.size())) + 1);
+    const double pass = reinserter.pass(part(kFraction));
     saved += pass;
     if (pass < kWorthwhile * (area - saved)) break;
   }

@@ -54,7 +54,7 @@ void check_vertices(const BvhInput& input) {
 std::vector<uint32_t> find_representatives(std::span<const glm::vec3> vertices) {
   const size_t n = vertices.size();
   const size_t mask = std::bit_ceil(std::max<size_t>(2 * n, 16)) - 1;
-  std::vector<uint32_t> table(mask + 1, kNone), representative(n);
+  std::vector<uint32_t> table(mask + 1, kNone), slots(n);
   const auto slot_of = [&](const glm::vec3& p) {
     uint32_t bits[3];
     std::memcpy(bits, &p, sizeof bits);
@@ -67,9 +67,16 @@ std::vector<uint32_t> find_representatives(std::span<const glm::vec3> vertices) 
   };
 
   parallel_for(0, n, kGrain, [&](size_t first, size_t last) {
+    constexpr size_t kAhead = 16;  // the table is too large for the cache
+    size_t hashed = first;
     for (size_t i = first; i < last; ++i) {
+      for (; hashed < std::min(i + kAhead, last); ++hashed) {
+        slots[hashed] = static_cast<uint32_t>(slot_of(vertices[hashed]));
+        __builtin_prefetch(&table[slots[hashed]]);
+      }
       const auto v = static_cast<uint32_t>(i);
-      for (size_t s = slot_of(vertices[v]);; s = (s + 1) & mask) {
+      for (size_t s = slots[i];; s = (s + 1) & mask) {
+        slots[i] = static_cast<uint32_t>(s);
         std::atomic_ref<uint32_t> slot(table[s]);
         uint32_t held = slot.load(std::memory_order_relaxed);
         if (held == kNone && slot.compare_exchange_strong(held, v, std::memory_order_relaxed)) break;
@@ -81,13 +88,9 @@ std::vector<uint32_t> find_representatives(std::span<const glm::vec3> vertices) 
     }
   });
   parallel_for(0, n, kGrain, [&](size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i) {
-      size_t s = slot_of(vertices[i]);
-      while (!equal(table[s], static_cast<uint32_t>(i))) s = (s + 1) & mask;
-      representative[i] = table[s];
-    }
+    for (size_t i = first; i < last; ++i) slots[i] = table[slots[i]];
   });
-  return representative;
+  return slots;
 }
 
 /// Half edge 3t + e goes from vertex e to vertex e + 1 of triangle t. Its partner is the half edge that runs
@@ -125,21 +128,21 @@ class Matcher {
         }
       });
     };
-    for_half_edges([&](uint32_t, uint32_t from, uint32_t to) {
-      std::atomic_ref<uint32_t>(bucket[std::min(from, to) + 1]).fetch_add(1, std::memory_order_relaxed);
+    for_half_edges([&](uint32_t half_edge, uint32_t from, uint32_t to) {  // partner_: the place in the bucket, for now
+      partner_[half_edge] =
+          std::atomic_ref<uint32_t>(bucket[std::min(from, to) + 1]).fetch_add(1, std::memory_order_relaxed);
     });
     for (size_t v = 1; v < bucket.size(); ++v) bucket[v] += bucket[v - 1];
     std::vector<uint64_t> edges(bucket.back());
     for_half_edges([&](uint32_t half_edge, uint32_t from, uint32_t to) {
-      const uint32_t at =
-          std::atomic_ref<uint32_t>(bucket[std::min(from, to)]).fetch_add(1, std::memory_order_relaxed);
-      edges[at] = static_cast<uint64_t>(std::max(from, to)) << 32 | static_cast<uint64_t>(half_edge) << 1 |
+      edges[bucket[std::min(from, to)] + partner_[half_edge]] = static_cast<uint64_t>(std::max(from, to)) << 32 | static_cast<uint64_t>(half_edge) << 1 |
                   (from > to);
+      partner_[half_edge] = kNone;
     });
-    // Now bucket[v] is the end of v's half edges. Sorting makes their order independent of the threads.
+    // Sorting makes their order independent of the threads.
     parallel_for(0, input_.vertices.size(), kGrain, [&](size_t first, size_t last) {
       for (size_t v = first; v < last; ++v) {
-        const auto begin = edges.begin() + (v ? bucket[v - 1] : 0), end = edges.begin() + bucket[v];
+        const auto begin = edges.begin() + bucket[v], end = edges.begin() + bucket[v + 1];
         std::sort(begin, end);
         for (auto run = begin; run != end;) {
           auto run_end = run;

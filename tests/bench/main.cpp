@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/build.h"
 #include "bench/lights.h"
 #include "bench/materials.h"
 #include "bench/media.h"
@@ -28,6 +29,24 @@ void print_rays(const std::vector<RaysResult>& results, bool json) {
     else
       fmt::print("{:8} {:9} {:9.2f} {:9.2f} {:7.3f} {:10}\n", r.scene, r.rays, r.mrays, r.embree_mrays, r.ratio(),
                  r.mismatches);
+  }
+}
+
+void print_build(const std::vector<BuildResult>& results, bool json) {
+  for (size_t i = 0; i < results.size(); ++i) {
+    const BuildResult& r = results[i];
+    if (json)
+      fmt::print("{}{{\"mesh\": \"{}\", \"triangles\": {}, \"cpu\": {:.4f}, \"wall\": {:.4f}, \"embree_medium_cpu\": {:.4f}, "
+                 "\"embree_medium_wall\": {:.4f}, \"embree_high_cpu\": {:.4f}, \"embree_high_wall\": {:.4f}, "
+                 "\"pair\": {:.4f}, \"tree\": {:.4f}, \"optimise\": {:.4f}, \"flatten\": {:.4f}, \"sah_cost\": {:.2f}}}{}\n",
+                 i == 0 ? "[" : " ", r.mesh, r.triangles, r.ours.cpu, r.ours.wall, r.medium.cpu, r.medium.wall, r.high.cpu,
+                 r.high.wall, r.pair, r.tree, r.optimise, r.flatten, r.sah_cost, i + 1 < results.size() ? "," : "]");
+    else
+      fmt::print("{}, {} triangles: CPU (wall) seconds {:.3f} ({:.3f}), Embree medium {:.3f} ({:.3f}), high {:.3f} ({:.3f}); "
+                 "CPU ratio {:.2f} to medium, {:.2f} to high\n  wall: pairs {:.3f}, tree {:.3f}, reinsertion {:.3f}, "
+                 "flattening {:.3f}; SAH cost {:.2f}\n",
+                 r.mesh, r.triangles, r.ours.cpu, r.ours.wall, r.medium.cpu, r.medium.wall, r.high.cpu, r.high.wall,
+                 r.ours.cpu / r.medium.cpu, r.ours.cpu / r.high.cpu, r.pair, r.tree, r.optimise, r.flatten, r.sah_cost);
   }
 }
 
@@ -109,6 +128,13 @@ int run(int argc, char** argv) {
   paths->add_option("--repetitions", paths_repetitions, "of each measurement, in turn")->check(CLI::Range(1, 1000));
   paths->add_flag("--json", json);
 
+  CLI::App* build = app.add_subcommand("build", "seconds to build the tree, against Embree's rtcCommitScene");
+  std::string build_mesh;
+  int build_repetitions = 3;
+  build->add_option("--mesh", build_mesh, "one mesh only")->check(CLI::IsMember(build_mesh_names()));
+  build->add_option("--repetitions", build_repetitions, "of each measurement, in turn")->check(CLI::Range(1, 1000));
+  build->add_flag("--json", json);
+
   CLI::App* media = app.add_subcommand("media", "gain of sampling in media, and the cost of a collision");
   int replicates = 8;
   media->add_option("--replicates", replicates, "independent renders of each")->check(CLI::Range(2, 1000));
@@ -132,6 +158,7 @@ int run(int argc, char** argv) {
   }
   if (rays->parsed()) print_rays(bench_rays(scene, repetitions), json);
   if (paths->parsed()) print_paths(bench_paths(paths_repetitions), json);
+  if (build->parsed()) print_build(bench_build(build_mesh, build_repetitions), json);
   if (media->parsed()) print_media(bench_medium_gains(replicates), bench_medium_costs());
   if (lights->parsed() && sun) print_sun(bench_sun(lights_repetitions), json);
   if (lights->parsed() && !sun) print_lights(bench_lights(large, lights_repetitions), json);
