@@ -1,0 +1,88 @@
+// Shadow rays through null surfaces that hold nothing: they end at the light that they were aimed at.
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "reference/reference.h"
+#include "support/render_test.h"
+
+namespace tachylite::test {
+namespace {
+
+using NullBoundary = DeviceTest;
+using glm::dvec3;
+
+constexpr int kSize = 16;
+constexpr double kHalf = 0.05, kHeight = 2, kReflectance = 0.5, kRadiance = 100;
+const dvec3 kSeen(0.3, 0.1, 0);  // the point of the wall that all pixels show
+
+/// A wall in the plane z = 0 under a small lamp, seen past the null cubes between the two.
+Scene wall_under_lamp(const char* integrator, const std::vector<double>& cubes) {
+  std::string elements = fmt::format(R"(<integrator type="{}"><integer name="max_depth" value="2"/></integrator>{}
+<shape type="rectangle"><transform name="to_world"><scale value="4"/></transform>
+<bsdf type="diffuse"><rgb name="reflectance" value="{}"/></bsdf></shape>
+<shape type="rectangle"><transform name="to_world"><scale value="{}"/><rotate x="1" angle="180"/><translate z="{}"/>
+</transform><emitter type="area"><rgb name="radiance" value="{}"/></emitter></shape>)",
+                                     integrator, sensor_element(kSize, kSize, "2, 0.1, 0.3", "0.3, 0.1, 0", 1e-3),
+                                     kReflectance, kHalf, kHeight, kRadiance);
+  for (const double half : cubes)
+    elements += fmt::format(R"(<shape type="cube"><transform name="to_world"><scale value="{}"/>
+<rotate x="1" y="0.4" angle="11"/><translate z="1.2"/></transform><bsdf type="null"/></shape>)", half);
+  return scene_from_elements(elements);
+}
+
+/// Light of the lamp reflected at kSeen by the midpoint rule.
+double quadrature() {
+  constexpr int kSteps = 64;
+  double sum = 0;
+  for (int i = 0; i < kSteps; ++i)
+    for (int j = 0; j < kSteps; ++j) {
+      const dvec3 to = dvec3(kHalf * (2 * (i + 0.5) / kSteps - 1), kHalf * (2 * (j + 0.5) / kSteps - 1), kHeight) - kSeen;
+      const double r2 = glm::dot(to, to);
+      sum += to.z * to.z / (r2 * r2);
+    }
+  return kReflectance / std::numbers::pi * kRadiance * sum * 4 * kHalf * kHalf / (kSteps * kSteps);
+}
+
+struct Mean {
+  double value = 0, deviation = 0;
+};
+/// Of all pixels, which have one expectation.
+Mean mean_of(const FilmBuffer& film) {
+  constexpr size_t kPixels = kSize * kSize;
+  Mean mean;
+  double squares = 0;
+  for (size_t i = 0; i < kPixels; ++i) {
+    mean.value += film.mean(i).x / kPixels;
+    squares += film.mean(i).x * film.mean(i).x / kPixels;
+  }
+  mean.deviation = std::sqrt(std::max(squares - mean.value * mean.value, 0.0) / kPixels);
+  return mean;
+}
+
+// 5 deviations: 6e-7 each. They must be below 0.2 %, so that a loss of 2 % of the shadow rays is beyond 10 of them.
+void expect_mean(const Mean& mean, const std::string& of) {
+  const double expected = quadrature();
+  EXPECT_NEAR(mean.value, expected, 5 * mean.deviation + 1e-4 * expected) << of;
+  EXPECT_LE(mean.deviation, 0.002 * expected) << of;
+}
+
+TEST_F(NullBoundary, ShadowRaysStopShortOfTheirLight) {
+  for (const Scene& scene : {wall_under_lamp("path", {}), wall_under_lamp("volpath", {0.4, 0.3, 0.2, 0.1})}) {
+    const std::string name = fmt::format("{} shapes", scene.shapes.size());
+    RenderOptions device_options;
+    device_options.samples = 64;
+    const DeviceRender rendered = render_on_device(scene, device_options);
+    EXPECT_EQ(rendered.statistics.nonfinite + rendered.statistics.overflow, 0u);
+    expect_mean(mean_of(rendered.film), "device, " + name);
+    ReferenceOptions options;
+    options.samples = 128;
+    expect_mean(mean_of(render_reference(scene, options).film), "reference, " + name);
+  }
+}
+
+}  // namespace
+}  // namespace tachylite::test
