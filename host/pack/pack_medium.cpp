@@ -40,8 +40,7 @@ class Packer {
     if (count > 1) kinds |= gpu::kMediaBlended;
     lobe_rows_.push_back(first_lobe);
 
-    const std::optional<HomogeneousMedium> homogeneous = as_homogeneous(medium);
-    if (homogeneous) {
+    if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium.kind)) {
       const dvec3& sigma_t = homogeneous->sigma_t;
       rows[0] = row(sigma_t, gpu::kMediumHomogeneous | count << 8);
       rows[1] = row(homogeneous->albedo);
@@ -52,15 +51,11 @@ class Packer {
     const auto& grid = std::get<HeterogeneousMedium>(medium.kind);
     kinds |= gpu::kMediaGrids;
     rows[0] = row(dvec3(0), gpu::kMediumGrid | count << 8);
-    dvec3 low(-1e30), high(1e30);
-    if (grid.sigma_t.grid) {
-      low = dvec3(std::numeric_limits<double>::infinity());
-      high = -low;
-      for (int corner = 0; corner < 8; ++corner) {
-        const dvec3 p = dvec3(grid_to_world(grid.sigma_t) * dvec4(corner & 1, (corner >> 1) & 1, corner >> 2, 1));
-        low = glm::min(low, p - centre_);
-        high = glm::max(high, p - centre_);
-      }
+    dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
+    for (int corner = 0; corner < 8; ++corner) {
+      const dvec3 p = dvec3(grid_to_world(grid.sigma_t) * dvec4(corner & 1, (corner >> 1) & 1, corner >> 2, 1));
+      low = glm::min(low, p - centre_);
+      high = glm::max(high, p - centre_);
     }
     rows[2] = vec4(glm::vec3(low), static_cast<float>(grid.scale));
     rows[3] = row(high);
@@ -71,7 +66,7 @@ class Packer {
 
   /// Medium without effect.
   static bool is_nothing(const Medium& medium) {
-    if (const auto homogeneous = as_homogeneous(medium)) return homogeneous->sigma_t == dvec3(0);
+    if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium.kind)) return homogeneous->sigma_t == dvec3(0);
     const auto& grid = std::get<HeterogeneousMedium>(medium.kind);
     return !(grid.scale * largest_value(grid.sigma_t) > 0);
   }
@@ -87,13 +82,6 @@ class Packer {
   uint32_t kinds = 0;
 
  private:
-  static std::optional<HomogeneousMedium> as_homogeneous(const Medium& medium) {
-    if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium.kind)) return *homogeneous;
-    const auto& grid = std::get<HeterogeneousMedium>(medium.kind);
-    if (grid.sigma_t.grid || grid.albedo.grid) return std::nullopt;
-    return HomogeneousMedium{grid.scale * grid.sigma_t.constant, grid.albedo.constant};
-  }
-
   void add_lobes(const PhaseFunction& phase, double weight, double& before) {
     if (const auto* blend = std::get_if<BlendPhase>(&phase.kind)) {
       if (blend->weight < 1) add_lobes(*blend->first, weight * (1 - blend->weight), before);

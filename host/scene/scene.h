@@ -202,7 +202,9 @@ struct Grid {
   std::vector<float> values;
   dvec3 bbox_min{0}, bbox_max{1};  // as written in the file; used with use_grid_bbox
 };
-struct Volume {  // plugin gridvolume or constvolume
+/// plugin gridvolume or constvolume: over the unit cube mapped by to_world. A medium ends at the box, parallel to the
+/// axes, around the cube of its sigma_t; albedo goes on beyond its own.
+struct Volume {
   FileLocation where;
   std::shared_ptr<const Grid> grid;  // null: the constant
   dvec3 constant{1};

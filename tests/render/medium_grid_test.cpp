@@ -1,11 +1,13 @@
 // Media on grids: optical depths in closed form, through spikes and empty voxels, by free flight and by shadow rays.
 
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "pack/majorant_grid.h"
+#include "reference/reference.h"
 #include "support/render_test.h"
 
 namespace tachylite::test {
@@ -52,13 +54,15 @@ Scene column_scene(FilterType filter, double scale, const std::string& light, co
   return scene;
 }
 
-double column_depth(double scale, int channel) {
+/// Transmittance of the column.
+dvec3 column_transmittance(double scale) {
   double sum = 0;
-  for (const double value : kColumn) sum += scale * value / (1 << channel) * 2 / kVoxels;
-  return sum;
+  for (const double value : kColumn) sum += scale * value * 2 / kVoxels;
+  return glm::exp(-sum * dvec3(1, 0.5, 0.25));
 }
 
-void expect_column(const Scene& scene, const dvec3& clear, double scale) {
+/// Every pixel has the expectation `expected`.
+void expect_pixels(const Scene& scene, const dvec3& expected, const char* name) {
   RenderOptions options;
   options.samples = 64;
   const DeviceRender result = render_on_device(scene, options);
@@ -72,9 +76,8 @@ void expect_column(const Scene& scene, const dvec3& clear, double scale) {
   const dvec3 deviation = glm::sqrt(glm::max(squares - mean * mean, dvec3(0)) / double{kPixels});
   for (int c = 0; c < 3; ++c) {
     // 5 deviations: 6e-7; a bias of 8 % is beyond 10 of them.
-    const double expected = clear[c] * std::exp(-column_depth(scale, c));
-    EXPECT_NEAR(mean[c], expected, 5 * deviation[c] + 1e-4 * expected) << scale << " " << c;
-    EXPECT_LE(deviation[c], 0.008 * expected) << scale << " " << c;
+    EXPECT_NEAR(mean[c], expected[c], 5 * deviation[c] + 1e-4 * expected[c]) << name << " " << c;
+    EXPECT_LE(deviation[c], 0.008 * expected[c]) << name << " " << c;
   }
 }
 
@@ -85,10 +88,29 @@ TEST_F(MediumGrid, OpticalDepthThroughSpikesAndEmptyVoxels) {
 <emitter type="directional"><vector name="direction" x="0" y="0" z="-1"/>
 <rgb name="irradiance" value="1, 1, 1"/></emitter>)";
   for (const FilterType filter : {FilterType::kNearest, FilterType::kBilinear}) {
-    expect_column(column_scene(filter, 1, sky, "4"), dvec3(1), 1);
+    expect_pixels(column_scene(filter, 1, sky, "4"), column_transmittance(1), "sky");
     // The camera behind the cube: only shadow rays pass it.
-    expect_column(column_scene(filter, 1, wall, "-1.55"), dvec3(0.5 / 3.14159265358979), 1);
+    expect_pixels(column_scene(filter, 1, wall, "-1.55"), 0.5 / std::numbers::pi * column_transmittance(1), "wall");
   }
+}
+
+TEST_F(MediumGrid, ConstantExtinctionFillsTheUnitCube) {
+  // As Mitsuba's constvolume: a medium ends with the box of its sigma_t, here z = -0.3 to 0.5, whatever holds it.
+  const std::string sky = R"(<emitter type="constant"><rgb name="radiance" value="1, 1, 1"/></emitter>)";
+  Scene scene = column_scene(FilterType::kNearest, 1.5, sky, "4");
+  auto& medium = std::get<HeterogeneousMedium>(scene.media[0].kind);
+  medium.sigma_t = {};
+  medium.sigma_t.constant = dvec3(1, 0.5, 0);
+  medium.sigma_t.to_world = dmat4(0.4, 0, 0, 0, 0, 3, 0, 0, 0, 0, 0.8, 0, -0.1, -1, -0.3, 1);
+  expect_pixels(scene, glm::exp(-1.5 * 0.8 * dvec3(1, 0.5, 0)), "device");
+
+  ReferenceOptions options;
+  options.samples = 64;
+  const ReferenceImage image = render_reference(scene, options);
+  dvec3 mean(0);
+  for (const dvec3& pixel : image.mean) mean += pixel / double{kSize * kSize};
+  for (int c = 0; c < 3; ++c)  // 5 deviations of the mean of as many coins
+    EXPECT_NEAR(mean[c], std::exp(-1.2 * medium.sigma_t.constant[c]), 5 * 0.5 / std::sqrt(64.0 * kSize * kSize)) << c;
 }
 
 TEST(MajorantGrid, BoundsEveryPointOfItsCells) {

@@ -1,6 +1,5 @@
-#include <cstring>
-
 #include "stress/random_scene.h"
+#include "support/vol_file.h"
 
 namespace tachylite::test {
 namespace {
@@ -17,17 +16,14 @@ Element phase_function(RandomSource& random, int depth) {
 
 /// A .vol file of a few voxels, some of them zero.
 std::string grid_file(RandomSource& random, SceneText& scene, int channels, double low, double high) {
-  const int32_t header[5] = {1, random.number(1, 5), random.number(1, 5), random.number(1, 5), channels};
-  const float box[6] = {-1, -1, -1, 1, 1, 1};
-  std::string bytes = "VOL\x03";
-  bytes.append(reinterpret_cast<const char*>(header), sizeof header).append(reinterpret_cast<const char*>(box), sizeof box);
-  for (int i = 0; i < header[1] * header[2] * header[3] * channels; ++i) {
+  const int nx = random.number(1, 5), ny = random.number(1, 5), nz = random.number(1, 5);
+  std::vector<float> values;
+  for (int i = 0; i < nx * ny * nz * channels; ++i) {
     const bool empty = random.number(0, 4) == 0;
-    const auto value = static_cast<float>(empty ? low : random.uniform(low, high));
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+    values.push_back(static_cast<float>(empty ? low : random.uniform(low, high)));
   }
   std::string name = fmt::format("grid{}.vol", scene.files.size());
-  scene.files.emplace_back(name, std::move(bytes));
+  scene.files.emplace_back(name, vol_file({nx, ny, nz}, channels, values));
   return name;
 }
 

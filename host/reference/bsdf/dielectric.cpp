@@ -4,8 +4,14 @@
 
 namespace tachylite::reference {
 
+bool is_index_matched(const DielectricBsdf& bsdf) {
+  const ColorInput& tint = bsdf.specular_transmittance;
+  return std::abs(bsdf.eta - 1) < 1e-6 && tint.texture == kNone && tint.value == dvec3(1);
+}
+
 std::optional<BsdfSample> sample_bsdf(const DielectricBsdf& bsdf, const ShadingPoint& point, const dvec3& wo,
                                       Random& random) {
+  if (is_index_matched(bsdf)) return BsdfSample{-wo, dvec3(1), 1, Scattering::kNull};
   const DielectricBoundary boundary = dielectric_boundary(wo.z, bsdf.eta);
   const double f = boundary.reflectance;
   if (random.uniform() < f) {

@@ -16,17 +16,15 @@ int wrap(double index, int size, WrapMode mode) {
 }  // namespace
 
 GridVolume::GridVolume(const Volume& volume) : volume_(volume) {
-  if (!volume.grid) {
-    maximum_ = max_component(volume.constant);
-    return;
-  }
+  maximum_ = volume.grid ? 0 : max_component(volume.constant);
   dmat4 to_world = volume.to_world;
   if (volume.use_grid_bbox) {
     const dvec3 low = volume.grid->bbox_min, high = volume.grid->bbox_max;
     to_world = to_world * glm::scale(glm::translate(dmat4(1), low), high - low);
   }
   to_local_ = glm::inverse(to_world);
-  for (const float v : volume.grid->values) maximum_ = std::max(maximum_, double{v});
+  if (volume.grid)
+    for (const float v : volume.grid->values) maximum_ = std::max(maximum_, double{v});
   low_ = dvec3(kInfinity);
   high_ = dvec3(-kInfinity);
   for (int corner = 0; corner < 8; ++corner) {

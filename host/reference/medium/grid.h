@@ -15,7 +15,7 @@ class GridVolume {
   dvec3 value(const dvec3& world) const;
   /// The largest value of any channel.
   double maximum() const { return maximum_; }
-  /// Axis-aligned box in the world around the mapped unit cube; infinite for a constant.
+  /// Axis-aligned box in the world around the mapped unit cube, also of a constant.
   dvec3 box_low() const { return low_; }
   dvec3 box_high() const { return high_; }
 
@@ -25,7 +25,7 @@ class GridVolume {
   const Volume& volume_;
   dmat4 to_local_{1};
   double maximum_ = 0;
-  dvec3 low_{-kInfinity}, high_{kInfinity};
+  dvec3 low_{0}, high_{0};
 };
 
 }  // namespace tachylite::reference
