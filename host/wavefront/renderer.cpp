@@ -21,7 +21,8 @@ using gpu::WaveParams;
 using vulkan::Buffer;
 
 constexpr uint32_t kTilePixels = gpu::kTileSize * gpu::kTileSize;
-constexpr uint32_t kFusedPaths = 1u << 24;  // of one dispatch that follows whole paths: about a second
+constexpr uint32_t kFusedPaths = 1u << 24;  // at most, of one dispatch that follows whole paths
+constexpr uint32_t kFirstFusedPaths = 1u << 20;  // of the first: less than a second on one slow core
 constexpr uint32_t kFusedBlocks = 8;
 constexpr uint32_t kBouncesPerSubmit = 16;  // between two looks at the queue's length; fewer where they take longer
 constexpr double kLongestSubmission = 0.3;  // seconds
@@ -80,6 +81,7 @@ struct Renderer::Impl {
   gpu::RenderParams params;
   uint32_t capacity = 0;
   uint32_t bounces_per_submit = kBouncesPerSubmit;
+  uint32_t pixels_per_wave = 0;
   uint64_t begun_samples = 0;  // that the film had before
   WaveSize size;
   RenderStatistics statistics;
@@ -107,6 +109,7 @@ Renderer::Impl::Impl(vulkan::Device& d, const PackedScene& s, const RenderOption
   baked = choose_baked(scene, options);
   params.capacity = capacity = capacity_for(params, options);
   size = wave_size(params, options, capacity, baked.has_value());
+  pixels_per_wave = baked ? std::min(size.pixels, kFirstFusedPaths / (size.blocks * kBlockSamples)) : size.pixels;
   params.seed = options.seed;
   params.end_sample = static_cast<uint32_t>(options.first_sample + options.samples);
 
@@ -221,7 +224,10 @@ bool Renderer::Impl::render_wave(WaveParams wave, const std::function<bool()>& g
   if (baked) {
     commands.dispatch(*kernels.follow_paths, (wave.pixel_count + gpu::kWorkgroupSize - 1) / gpu::kWorkgroupSize, &wave,
                       sizeof(wave));
+    const Timer submission;
     commands.submit_and_wait();
+    if (submission.seconds() > kLongestSubmission) pixels_per_wave = std::max(pixels_per_wave / 2, gpu::kWorkgroupSize);
+    if (submission.seconds() < kLongestSubmission / 3) pixels_per_wave = std::min(2 * pixels_per_wave, size.pixels);
     take_counters();
     return true;
   }
@@ -321,9 +327,9 @@ void Renderer::render_into(FilmBuffer& film) {
       progress.mpaths_per_s = static_cast<double>(r.statistics.paths) * 1e-6 / progress.seconds;
       return !r.options.progress || r.options.progress(progress);
     };
-    for (uint32_t pixel = 0; pixel < all_pixels && !stop; pixel += size.pixels) {
+    for (uint32_t pixel = 0; pixel < all_pixels && !stop; pixel += wave.pixel_count) {
       wave.first_pixel = pixel;
-      wave.pixel_count = std::min(size.pixels, all_pixels - pixel);
+      wave.pixel_count = std::min(r.pixels_per_wave, all_pixels - pixel);
       if (!r.render_wave(wave, [&] { return goes_on(pixel); })) return r.finish(film, timer);
       sums.take(wave, static_cast<const glm::vec4*>(r.film_block->mapped()),
                 r.aov_block ? static_cast<const glm::vec4*>(r.aov_block->mapped()) : nullptr);
