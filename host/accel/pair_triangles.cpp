@@ -213,6 +213,17 @@ class Matcher {
     }
   }
 
+  uint32_t longest_edge(uint32_t t) const {
+    const glm::uvec3 v = input_.triangles[t];
+    uint32_t longest = 2;  // of several that of the mesh's own order
+    double most = 0;
+    for (const uint32_t e : {2u, 0u, 1u}) {
+      const glm::dvec3 edge = glm::dvec3(input_.vertices[v[edge_end(e)]]) - glm::dvec3(input_.vertices[v[e]]);
+      if (const double length2 = glm::dot(edge, edge); length2 > most) longest = e, most = length2;
+    }
+    return longest;
+  }
+
   Pairing collect() const {
     Pairing result;
     result.pairs.reserve(input_.triangles.size() / 2 + 1);
@@ -221,7 +232,7 @@ class Matcher {
       const uint32_t h = mate_[t];
       if (h == kNone) {
         if (has_area(input_, t))
-          result.pairs.push_back({t, TrianglePair::kNoTriangle, 0});
+          result.pairs.push_back({t, TrianglePair::kNoTriangle, edge_end(longest_edge(t))});
         else
           ++result.dropped;
         continue;

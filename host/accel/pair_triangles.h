@@ -7,7 +7,8 @@
 
 namespace tachylite {
 
-/// Two triangles with a common edge, of equal winding, or one alone (then second == kNoTriangle).
+/// Two triangles with a common edge, of equal winding, or one alone (then second == kNoTriangle), turned so that its
+/// longest edge stands where the common one would.
 /// In the order of shared/bvh.h, vertex k of a leaf's triangle is vertex (k + rotation) % 3 of the mesh's.
 struct TrianglePair {
   static constexpr uint32_t kNoTriangle = 0xffffffffu;

@@ -13,6 +13,13 @@ dvec3 interpolate(const std::vector<glm::vec3>& values, const glm::uvec3& v, con
   return b.x * dvec3(values[v.x]) + b.y * dvec3(values[v.y]) + b.z * dvec3(values[v.z]);
 }
 
+/// The vertex (0, 1, 2) opposite the longest edge. The edges that meet in it are the furthest from parallel: the plane
+/// through them is off by least at the triangle's other end.
+int apex_of(const dvec3& a, const dvec3& b, const dvec3& c) {
+  const double bc = glm::dot(c - b, c - b), ca = glm::dot(a - c, a - c), ab = glm::dot(b - a, b - a);
+  return bc >= ca && bc >= ab ? 0 : ca >= ab ? 1 : 2;
+}
+
 }  // namespace
 
 Geometry::Geometry(const Scene& scene) : scene_(scene) {
@@ -27,8 +34,8 @@ Geometry::Geometry(const Scene& scene) : scene_(scene) {
     world.normal_to_world = glm::transpose(dmat3(world.to_object));
 
     Box bounds;
-    auto add = [&](uint32_t triangle, const Box& box) {
-      primitives_.push_back({shape_index, triangle});
+    auto add = [&](uint32_t triangle, const Box& box, int apex = 0) {
+      primitives_.push_back({shape_index, triangle, apex});
       boxes.push_back(box);
       bounds.grow(box);
     };
@@ -42,7 +49,7 @@ Geometry::Geometry(const Scene& scene) : scene_(scene) {
         world.triangle_area_sums.push_back(world.area);
         Box box;
         for (const dvec3& p : {a, b, c}) box.grow(p);
-        add(i, box);
+        add(i, box, apex_of(a, b, c));
       }
     } else {
       world.area = unit_shape_area(shape, world.to_world);
@@ -81,8 +88,9 @@ std::optional<Geometry::Candidate> Geometry::intersect_primitive(const Primitive
   }
   // Moeller and Trumbore 1997; edges belong to both triangles.
   const glm::uvec3 v = world.mesh->triangles[primitive.triangle];
-  const dvec3 v0 = world.positions[v.x];
-  const dvec3 e1 = world.positions[v.y] - v0, e2 = world.positions[v.z] - v0;
+  const int i0 = primitive.apex, i1 = (i0 + 1) % 3, i2 = (i0 + 2) % 3;
+  const dvec3 v0 = world.positions[v[i0]];
+  const dvec3 e1 = world.positions[v[i1]] - v0, e2 = world.positions[v[i2]] - v0;
   const dvec3 q = glm::cross(ray.direction, e2);
   const double determinant = glm::dot(e1, q);
   if (determinant == 0) return std::nullopt;
@@ -94,7 +102,11 @@ std::optional<Geometry::Candidate> Geometry::intersect_primitive(const Primitive
   if (!(b2 >= 0 && b1 + b2 <= 1)) return std::nullopt;
   const double t = glm::dot(e2, r) / determinant;
   if (!(t > 0 && t < t_max)) return std::nullopt;
-  return Candidate{t, {1 - b1 - b2, b1, b2}};
+  dvec3 where;
+  where[i0] = 1 - b1 - b2;
+  where[i1] = b1;
+  where[i2] = b2;
+  return Candidate{t, where};
 }
 
 std::optional<SurfacePoint> Geometry::intersect(const Ray& ray, bool without_emitters) const {
@@ -144,7 +156,9 @@ SurfacePoint Geometry::triangle_point(const Primitive& primitive, const dvec3& b
   const dvec3 p0 = world.positions[v.x], p1 = world.positions[v.y], p2 = world.positions[v.z];
   SurfacePoint point;
   point.p = b.x * p0 + b.y * p1 + b.z * p2;
-  point.n_g = glm::normalize(glm::cross(p1 - p0, p2 - p0));
+  const int i0 = apex_of(p0, p1, p2);
+  const dvec3 corners[] = {p0, p1, p2}, apex = corners[i0];
+  point.n_g = glm::normalize(glm::cross(corners[(i0 + 1) % 3] - apex, corners[(i0 + 2) % 3] - apex));
   point.at = {dvec2(b.y, b.z), &mesh, primitive.triangle, b};
 
   // Interpolate the normal.
@@ -189,7 +203,7 @@ AreaSample Geometry::sample_area(int shape, Random& random) const {
   const WorldShape& world = shapes_[static_cast<size_t>(shape)];
   if (!world.mesh) {
     const dvec3 where = sample_unit_shape(scene_.shapes[static_cast<size_t>(shape)], random.uniform2());
-    return {surface_point({shape, 0}, where), 1 / world.area};
+    return {surface_point({.shape = shape, .triangle = 0}, where), 1 / world.area};
   }
   const auto& sums = world.triangle_area_sums;
   const auto chosen = std::upper_bound(sums.begin(), sums.end(), random.uniform() * world.area);
@@ -197,7 +211,7 @@ AreaSample Geometry::sample_area(int shape, Random& random) const {
   const dvec2 u = random.uniform2();
   const double r = std::sqrt(u.x);  // uniform on the triangle
   const dvec3 barycentrics(1 - r, r * (1 - u.y), r * u.y);
-  return {surface_point({shape, static_cast<uint32_t>(triangle)}, barycentrics), 1 / world.area};
+  return {surface_point({.shape = shape, .triangle = static_cast<uint32_t>(triangle)}, barycentrics), 1 / world.area};
 }
 
 }  // namespace tachylite::reference

@@ -68,6 +68,7 @@ class Geometry {
   struct Primitive {
     int shape;
     uint32_t triangle;  // 0 for analytic shapes
+    int apex = 0;       // of a triangle: the vertex opposite its longest edge
   };
   struct Candidate {
     double t;

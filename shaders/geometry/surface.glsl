@@ -44,11 +44,16 @@ vec2 triangle_barycentrics(float b1, float b2, uint rotation) {
   return rotation == 0u ? b.yz : (rotation == 1u ? b.xy : b.zx);
 }
 
-// Unit normal of edges of any length: they are scaled before the product, which could underflow.
-vec3 triangle_normal(vec3 e1, vec3 e2) {
+// Unit normal of edges of any length: they are scaled before the product, which could underflow. That of the two
+// shorter edges: a sliver's others are all but parallel.
+vec3 triangle_normal(vec3 e1, vec3 e2, vec3 e12) {
   vec3 a = max(abs(e1), abs(e2));
   float scale = 1.0 / max(max(a.x, a.y), max(a.z, 1e-37));
-  return normalize(cross(e1 * scale, e2 * scale));
+  e1 *= scale;
+  e2 *= scale;
+  e12 *= scale;
+  float l1 = dot(e1, e1), l2 = dot(e2, e2), l12 = dot(e12, e12);
+  return normalize(cross(l1 > max(l2, l12) ? e2 : e1, l12 > max(l1, l2) ? e2 : e12));
 }
 
 Interaction triangle_interaction(uint primitive, vec2 b) {
@@ -65,7 +70,7 @@ Interaction triangle_interaction(uint primitive, vec2 b) {
   it.p = b0 * v0.xyz + b.x * v1.xyz + b.y * v2.xyz;
   it.p_error = kGammaTriangle * (abs(b0 * v0.xyz) + abs(b.x * v1.xyz) + abs(b.y * v2.xyz));
   vec3 e1 = v1.xyz - v0.xyz, e2 = v2.xyz - v0.xyz;
-  vec3 n = triangle_normal(e1, e2);
+  vec3 n = triangle_normal(e1, e2, v2.xyz - v1.xyz);
   it.n_g = flip ? -n : n;
   it.n_s = it.n_g;
   it.point.primitive = primitive;

@@ -46,11 +46,13 @@ void expect_even(const std::string& name, const std::string& elements,
 using GlowingThings = DeviceTest;
 
 TEST_F(GlowingThings, Slivers) {
-  std::string scene = room(1, "0, 0, 0", 60);
-  for (int i = 0; i < 24; ++i)
-    scene += thing("cube", fmt::format(R"(<scale x="0.4" y="2e-4" z="2e-4"/><rotate x="1" y="{}" z="2" angle="{}"/>
-<translate x="{}" y="{}" z="{}"/>)", i % 5, 37 * i, 0.03 * (i % 7) - 0.1, 0.04 * (i % 5) - 0.1, -0.05 * (i % 4)));
-  expect_even("boxes with sides 1 : 5e-4 : 5e-4", scene);
+  for (const char* size : {R"(y="2e-4" z="2e-4")", R"(y="2e-4" z="4e-6")"}) {
+    std::string scene = room(1, "0, 0, 0", 60);
+    for (int i = 0; i < 24; ++i)
+      scene += thing("cube", fmt::format(R"(<scale x="0.4" {}/><rotate x="1" y="{}" z="2" angle="{}"/>
+<translate x="{}" y="{}" z="{}"/>)", size, i % 5, 37 * i, 0.03 * (i % 7) - 0.1, 0.04 * (i % 5) - 0.1, -0.05 * (i % 4)));
+    expect_even(fmt::format("boxes, half sides 0.4, {}", size), scene);
+  }
   // A box with a row of vertices 6e-7 beside an edge of length 0.8: a strip of triangles of aspect 1e6.
   std::string obj;
   for (const double z : {-0.2, 0.2})

@@ -67,9 +67,17 @@ inline std::array<glm::vec3, 4> leaf_vertices(const Bvh8& bvh, uint32_t leaf) {
   return {vertex(0), vertex(1), vertex(2), vertex(3)};
 }
 
-/// Moeller and Trumbore 1997; (b0, b1, b2) and t.
+/// Moeller and Trumbore 1997, from the vertex opposite the longest edge, where rounding matters least; (b0, b1, b2) and
+/// t.
 inline bool intersect_triangle(const Ray& ray, const glm::dvec3& v0, const glm::dvec3& v1,
                                const glm::dvec3& v2, double& t, glm::dvec3& b) {
+  const double l0 = length(v2 - v1), l1 = length(v0 - v2), l2 = length(v1 - v0);
+  if (std::max(l1, l2) > l0) {
+    glm::dvec3 turned;
+    const bool hit = l1 >= l2 ? intersect_triangle(ray, v1, v2, v0, t, turned) : intersect_triangle(ray, v2, v0, v1, t, turned);
+    b = l1 >= l2 ? glm::dvec3(turned.z, turned.x, turned.y) : glm::dvec3(turned.y, turned.z, turned.x);
+    return hit;
+  }
   const glm::dvec3 e1 = v1 - v0, e2 = v2 - v0, p = cross(ray.d, e2), s = ray.o - v0, q = cross(s, e1);
   const double det = dot(e1, p);
   if (det == 0) return false;
