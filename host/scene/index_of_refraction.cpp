@@ -33,6 +33,8 @@ std::optional<ConductorIndex> find_conductor(const std::string& name) {
       {"Au", {{.14304, .37531, 1.44205}, {3.98300, 2.38556, 1.60336}}},
       {"Cr", {{4.36967, 2.91651, 1.65490}, {5.20655, 4.23131, 3.75470}}},
       {"Cu", {{.20101, .92375, 1.10222}, {3.91326, 2.45305, 2.14209}}},
+      {"Ni_palik", {{2.36730, 1.66337, 1.46708}, {4.49881, 3.05015, 2.34544}}},
+      {"W", {{4.37082, 3.30025, 2.99841}, {3.50064, 2.60487, 2.27323}}},
   };
   const auto found = table.find(name);
   return found == table.end() ? std::nullopt : std::optional(found->second);

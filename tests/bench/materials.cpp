@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/timer.h"
 #include "support/render_test.h"
 #include "wavefront/renderer.h"
 
@@ -13,7 +14,7 @@ namespace tachylite::bench {
 namespace {
 
 constexpr int kSize = 512, kTiles = 8;
-constexpr uint64_t kSamples = 8;
+constexpr uint64_t kSamples = 2;
 
 struct Material {
   const char* name;
@@ -59,45 +60,61 @@ Scene wall(const std::function<std::string(int tile)>& bsdf_of) {
   return test::scene_from_elements(elements);
 }
 
-MaterialResult measure(vulkan::Device& device, const std::string& name, const Scene& scene, int repetitions) {
-  const PackedScene packed = pack_scene(scene);
-  RenderOptions options;
-  options.samples = kSamples;
-  options.structure = KernelStructure::kStages;
-  options.timing = true;
-  MaterialResult result{name, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  for (int i = 0; i < repetitions; ++i) {
+struct Measurement {
+  std::string name;
+  Scene scene;
+  PackedScene packed = pack_scene(scene);
+  double least_ns = std::numeric_limits<double>::infinity();
+  std::vector<double> shares = {};  // of the shading kernels
+
+  void repeat(vulkan::Device& device) {
+    RenderOptions options;
+    options.samples = kSamples;
+    options.structure = KernelStructure::kStages;
+    options.timing = true;
     Renderer renderer(device, packed, options);
+    CpuTimer timer;
     renderer.render();
+    least_ns = std::min(least_ns, 1e9 * timer.seconds() / (double{kSize} * kSize * kSamples));
     double shade = 0, total = 0;
     for (const auto& [kernel, time] : renderer.statistics().kernels) {
       total += time.seconds;
       if (kernel.starts_with("shade_surface")) shade += time.seconds;
     }
-    const double paths = double{kSize} * kSize * kSamples;
-    result.shade_ns = std::min(result.shade_ns, 1e9 * shade / paths);
-    result.total_ns = std::min(result.total_ns, 1e9 * total / paths);
+    shares.push_back(total > 0 ? shade / total : 0);
   }
-  return result;
-}
+  MaterialResult result() {
+    std::ranges::nth_element(shares, shares.begin() + static_cast<ptrdiff_t>(shares.size() / 2));
+    return {name, least_ns, least_ns * shares[shares.size() / 2]};
+  }
+};
 
 }  // namespace
 
 MaterialsResult bench_materials(int repetitions) {
   vulkan::Device device;
-  MaterialsResult result;
+  std::vector<Measurement> measurements;
   std::vector<Material> parts;
   for (const Material& m : materials()) {
-    result.single.push_back(measure(device, m.name, wall([&](int) { return m.element; }), repetitions));
-    if (!m.mixed) continue;
-    parts.push_back(m);
-    result.mean_of_its_parts_ns += result.single.back().total_ns;
+    measurements.push_back({m.name, wall([&](int) { return m.element; })});
+    if (m.mixed) parts.push_back(m);
   }
-  result.mean_of_its_parts_ns /= static_cast<double>(parts.size());
-  const Scene mixed = wall([&](int tile) {
+  measurements.push_back({"eight side by side", wall([&](int tile) {
     return parts[static_cast<size_t>(tile % kTiles + 3 * (tile / kTiles)) % parts.size()].element;
-  });
-  result.mixed = measure(device, "eight side by side", mixed, repetitions);
+  })});
+  for (int i = 0; i < repetitions; ++i)
+    for (Measurement& m : measurements) m.repeat(device);
+
+  MaterialsResult result;
+  for (Measurement& m : measurements) result.single.push_back(m.result());
+  result.mixed = result.single.back();
+  result.single.pop_back();
+  result.parts.name = "the eight alone, mean";
+  for (size_t i = 0; i < result.single.size(); ++i) {
+    if (!materials()[i].mixed) continue;
+    result.parts.total_ns += result.single[i].total_ns / static_cast<double>(parts.size());
+    result.parts.shade_ns += result.single[i].shade_ns / static_cast<double>(parts.size());
+  }
   return result;
 }
 

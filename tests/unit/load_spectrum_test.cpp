@@ -46,6 +46,39 @@ TEST(LoadSpectrum, CopperOfTheTable) {
   expect_near(spectrum_to_rgb(wavelengths, eta, ColorUse::kEmission), find_conductor("Cu")->eta, 1e-5);
 }
 
+// Tungsten and nickel after Palik 1985, "Handbook of Optical Constants of Solids", as luxpop.com lists them, at the
+// wavelengths that matter: what the named conductors are made of.
+TEST(LoadSpectrum, TungstenAndNickelOfTheTable) {
+  const std::vector<double> fine = {
+      359.362030, 364.647003, 370.089996, 375.696991, 381.477020, 387.437988, 393.587006, 399.935028, 406.492004,
+      413.266998, 420.270996, 427.516998, 435.018036, 442.785980, 450.835999, 459.185028, 467.849030, 476.846008,
+      486.196014, 495.920013, 506.041016, 516.583008, 527.575012, 539.044006, 551.022034, 563.545044, 576.651001,
+      590.381042, 604.781006, 619.900024, 635.795044, 652.526001, 670.162048, 688.778015, 708.456970, 729.294006,
+      751.393982, 774.875000, 799.871033, 826.533020, 855.033997};
+  expect_near(spectrum_to_rgb(fine, {3.32, 3.39, 3.43, 3.45, 3.45, 3.43, 3.41, 3.39, 3.37, 3.35, 3.33, 3.32, 3.31, 3.30,
+                                     3.31, 3.31, 3.32, 3.34, 3.35, 3.38, 3.42, 3.45, 3.48, 3.50, 3.50, 3.49, 3.51, 3.54,
+                                     3.57, 3.60, 3.65, 3.70, 3.76, 3.82, 3.85, 3.84, 3.78, 3.67, 3.56, 3.48, 3.38},
+                              ColorUse::kEmission),
+              find_conductor("W")->eta, 1e-5);
+  expect_near(spectrum_to_rgb(fine, {2.70, 2.66, 2.60, 2.55, 2.49, 2.45, 2.43, 2.41, 2.42, 2.42, 2.43, 2.45, 2.47, 2.49,
+                                     2.53, 2.55, 2.59, 2.62, 2.64, 2.68, 2.71, 2.72, 2.72, 2.72, 2.73, 2.75, 2.81, 2.84,
+                                     2.86, 2.89, 2.92, 2.94, 2.95, 2.91, 2.86, 2.78, 2.72, 2.68, 2.73, 2.79, 2.85},
+                              ColorUse::kEmission),
+              find_conductor("W")->k, 1e-5);
+  const std::vector<double> coarse = {
+      354.229004, 364.647003, 375.696991, 387.437988, 399.935028, 413.266998, 427.516998, 442.785980, 459.185028,
+      476.846008, 495.920013, 516.583008, 539.044006, 563.545044, 590.381042, 619.900024, 635.795044, 652.526001,
+      670.162048, 688.778015, 708.456970, 729.294006, 751.393982, 774.875000, 799.871033, 826.533020, 855.033997};
+  expect_near(spectrum_to_rgb(coarse, {1.63, 1.62, 1.61, 1.61, 1.61, 1.61, 1.62, 1.62, 1.64, 1.66, 1.67, 1.71, 1.75, 1.80,
+                                       1.85, 1.93, 1.98, 2.02, 2.08, 2.14, 2.21, 2.28, 2.36, 2.43, 2.48, 2.53, 2.59},
+                              ColorUse::kEmission),
+              find_conductor("Ni_palik")->eta, 1e-5);
+  expect_near(spectrum_to_rgb(coarse, {2.11, 2.17, 2.23, 2.30, 2.36, 2.44, 2.52, 2.61, 2.71, 2.81, 2.93, 3.06, 3.19, 3.33,
+                                       3.48, 3.65, 3.74, 3.82, 3.91, 4.00, 4.09, 4.18, 4.25, 4.31, 4.38, 4.47, 4.55},
+                              ColorUse::kEmission),
+              find_conductor("Ni_palik")->k, 1e-5);
+}
+
 TEST(LoadSpectrum, OutOfRangeColoursAreClamped) {
   // A narrow line of 500 nm has negative red, and as reflectance of 50 too much green.
   const dvec3 line = spectrum_to_rgb({499, 500, 501}, {0, 50, 0}, ColorUse::kEmission);
