@@ -9,10 +9,6 @@ namespace {
 /// of the primitive's coordinates; this is 4096 of them.
 constexpr double kRelativeError = 0x1p-41;
 
-dvec3 interpolate(const std::vector<glm::vec3>& values, const glm::uvec3& v, const dvec3& b) {
-  return b.x * dvec3(values[v.x]) + b.y * dvec3(values[v.y]) + b.z * dvec3(values[v.z]);
-}
-
 /// The vertex (0, 1, 2) opposite the longest edge. The edges that meet in it are the furthest from parallel: the plane
 /// through them is off by least at the triangle's other end.
 int apex_of(const dvec3& a, const dvec3& b, const dvec3& c) {
@@ -42,6 +38,10 @@ Geometry::Geometry(const Scene& scene) : scene_(scene) {
     if (world.mesh) {
       for (const glm::vec3& p : world.mesh->positions)
         world.positions.push_back(transform_point(world.to_world, p));
+      for (const glm::vec3& n : world.mesh->normals) {
+        const dvec3 turned = world.normal_to_world * dvec3(n);
+        world.normals.push_back(glm::dot(turned, turned) > 0 ? glm::normalize(turned) : dvec3(0));
+      }
       for (uint32_t i = 0; i < world.mesh->triangles.size(); ++i) {
         const glm::uvec3 v = world.mesh->triangles[i];
         const dvec3 a = world.positions[v.x], b = world.positions[v.y], c = world.positions[v.z];
@@ -163,8 +163,8 @@ SurfacePoint Geometry::triangle_point(const Primitive& primitive, const dvec3& b
 
   // Interpolate the normal.
   point.frame.n = point.n_g;
-  if (!mesh.normals.empty() && !shape.face_normals) {
-    const dvec3 n = world.normal_to_world * interpolate(mesh.normals, v, b);
+  if (!world.normals.empty() && !shape.face_normals) {
+    const dvec3 n = b.x * world.normals[v.x] + b.y * world.normals[v.y] + b.z * world.normals[v.z];
     if (glm::dot(n, n) > 0) point.frame.n = glm::normalize(n);
   }
 

@@ -159,11 +159,15 @@ TEST(ReferenceGeometry, NormalsFlipAndInterpolate) {
   const int smooth = b.add_shape(MeshShape{mesh});
   const int flipped = b.add_shape(MeshShape{mesh}, moved({0, 0, 1}));
   const int flat = b.add_shape(MeshShape{mesh}, moved({0, 0, 2}));
+  b.add_shape(MeshShape{mesh}, moved({0, 0, 3}) * scaled({1, 1, 0.5}));
   b.scene.shapes[static_cast<size_t>(flipped)].flip_normals = true;
   b.scene.shapes[static_cast<size_t>(flat)].face_normals = true;
   const Geometry geometry(b.scene);
   const auto hit = [&](double z) { return *geometry.intersect({{0.5, 0.25, z}, {0, 0, -1}}); };
-  const dvec3 n = glm::normalize(dvec3(0.5, 0, 1));
+  // Unit in world space, then interpolated.
+  const dvec3 n = glm::normalize(dvec3(0, 0, 0.5) + 0.5 * glm::normalize(dvec3(1, 0, 1)));
+  const dvec3 scaled_n = glm::normalize(dvec3(0, 0, 0.5) + 0.5 * glm::normalize(dvec3(1, 0, 2)));
+  EXPECT_LT(glm::distance(hit(3.5).frame.n, scaled_n), 1e-7);
   EXPECT_EQ(hit(0.5).shape, smooth);
   EXPECT_LT(glm::distance(hit(0.5).frame.n, n), 1e-7);
   EXPECT_EQ(hit(0.5).n_g, dvec3(0, 0, 1));
