@@ -1,6 +1,6 @@
 // Media on the device and by the CPU reference agree: image/verify.h, level 1e-4 a scene (found twice at 1e-2); a bias
-// of mean_bias (2 % unless stated) of the mean of any channel, or of 8 times that (at least 15 %) of the median block, is
-// seen with probability 0.95.
+// of mean_bias (2 % unless stated) of the mean of any channel, or of 8 times that (at least 15 %) of the median block,
+// is seen with probability 0.95.
 
 #include <algorithm>
 
@@ -36,11 +36,11 @@ std::string medium(const char* name, const char* sigma_t, double scale, const ch
                      name, sigma_t, scale, phase);
 }
 const std::string kNull = R"(<bsdf type="null"/>)";
-const std::string kMask =
-    R"(<bsdf type="mask"><float name="opacity" value="0.4"/><bsdf type="twosided"><bsdf type="diffuse"/></bsdf></bsdf>)";
+const std::string kMask = R"(<bsdf type="mask"><float name="opacity" value="0.4"/>
+<bsdf type="twosided"><bsdf type="diffuse"/></bsdf></bsdf>)";
 std::string ball(double radius, const std::string& inside, const std::string& bsdf = kNull, double x = 0) {
-  return fmt::format(R"(<shape type="sphere"><float name="radius" value="{}"/><point name="center" value="{}, 0, 0"/>{}{}</shape>)",
-                     radius, x, bsdf, inside);
+  return fmt::format(R"(<shape type="sphere"><float name="radius" value="{}"/><point name="center" value="{}, 0, 0"/>
+{}{}</shape>)", radius, x, bsdf, inside);
 }
 
 const char* kForward = R"(<phase type="hg"><float name="g" value="0.7"/></phase>)";
@@ -54,14 +54,15 @@ std::string sensor_inside(const char* id, const std::string& sensor = kSensor) {
   return sensor.substr(0, end) + fmt::format(R"(<ref id="{}"/>)", id) + sensor.substr(end);
 }
 std::string rough_glass(const char* distribution, double alpha_u, double alpha_v) {
-  return fmt::format(R"(<bsdf type="roughdielectric"><string name="distribution" value="{}"/><float name="int_ior" value="1.4"/>
-<float name="ext_ior" value="1"/><float name="alpha_u" value="{}"/><float name="alpha_v" value="{}"/></bsdf>)",
+  return fmt::format(R"(<bsdf type="roughdielectric"><string name="distribution" value="{}"/>
+<float name="int_ior" value="1.4"/><float name="ext_ior" value="1"/>
+<float name="alpha_u" value="{}"/><float name="alpha_v" value="{}"/></bsdf>)",
                      distribution, alpha_u, alpha_v);
 }
 
 std::string heterogeneous(double scale, const std::string& volumes, const char* phase = "") {
-  return fmt::format(R"(<medium name="interior" type="heterogeneous"><float name="scale" value="{}"/>{}{}</medium>)", scale,
-                     volumes, phase);
+  return fmt::format(R"(<medium name="interior" type="heterogeneous"><float name="scale" value="{}"/>{}{}</medium>)",
+                     scale, volumes, phase);
 }
 /// Over a turned box about the origin.
 std::string grid(const char* name, const char* file, const char* filter) {
@@ -87,8 +88,11 @@ std::vector<std::pair<std::string, std::string>> files() {
     return result;
   };
   std::string sky = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 6\n";
-  for (int i = 0; i < 24; ++i) sky += std::string{60, static_cast<char>(80 + 4 * i), 100, static_cast<char>(i == 8 ? 131 : 128)};
-  return {{"one.vol", vol_file({4, 4, 4}, 1, values(64))}, {"three.vol", vol_file({4, 4, 4}, 3, values(192))}, {"sky.hdr", sky}};
+  for (int i = 0; i < 24; ++i)
+    sky += std::string{60, static_cast<char>(80 + 4 * i), 100, static_cast<char>(i == 8 ? 131 : 128)};
+  return {{"one.vol", vol_file({4, 4, 4}, 1, values(64))},
+          {"three.vol", vol_file({4, 4, 4}, 3, values(192))},
+          {"sky.hdr", sky}};
 }
 
 // A light without extent stands in a clear ball in it: next to it in the fog itself the variance of the reference's
@@ -124,7 +128,8 @@ const std::vector<MediumScene>& scenes() {
                                                                  grid("albedo", "three.vol", "nearest"), kForward))},
       {"RoughGlass", volpath(10) + kCloseSensor + kSky + ball(1.0, medium("interior", "0.3, 0.2, 0.1", 1, kForward)) +
                          ball(0.8, medium("interior", "0.3, 1, 0.6", 3, kBlend) +
-                                       medium("exterior", "0.3, 0.2, 0.1", 1, kForward), rough_glass("beckmann", 0.4, 0.2)),
+                                       medium("exterior", "0.3, 0.2, 0.1", 1, kForward),
+                              rough_glass("beckmann", 0.4, 0.2)),
        0.01, 1024},
       {"GridInRoughGlass", volpath(12) + kCloseSensor + kSky +
                                ball(0.9, heterogeneous(4, grid("sigma_t", "three.vol", "nearest") +
@@ -132,7 +137,8 @@ const std::vector<MediumScene>& scenes() {
                                     rough_glass("ggx", 0.2, 0.2)), 0.03, 512},
       {"ConstantsBesideGrids", volpath(8) + kSensor + kFloor + kLamp + kSky +
                                    ball(0.6, heterogeneous(2, constant("sigma_t", kColours) +
-                                                                  grid("albedo", "three.vol", "nearest"), kBlend), kMask, -0.7) +
+                                                                  grid("albedo", "three.vol", "nearest"), kBlend),
+                                        kMask, -0.7) +
                                    ball(0.6, heterogeneous(5, grid("sigma_t", "one.vol", "nearest") +
                                                                   constant("albedo", "0.9, 0.7, 0.4"), kBlend),
                                         R"(<bsdf type="thindielectric"/>)", 0.7), 0.03, 128},
@@ -140,14 +146,16 @@ const std::vector<MediumScene>& scenes() {
       {"OverlappingUnderEnvironment", volpath(8) + kSensor + kFloor +
            R"(<emitter type="envmap"><string name="filename" value="sky.hdr"/></emitter>)" +
            ball(0.9, medium("interior", "0.5, 0.8, 1", 1, kForward)) +
-           ball(0.5, heterogeneous(5, grid("sigma_t", "one.vol", "trilinear")) + medium("exterior", "0.5, 0.8, 1", 1, kForward)) +
+           ball(0.5, heterogeneous(5, grid("sigma_t", "one.vol", "trilinear")) +
+                         medium("exterior", "0.5, 0.8, 1", 1, kForward)) +
            ball(0.6, medium("interior", kColours, 2, ""), kNull, 0.8), 0.03, 128},
       // Light leaves the large ball outwards only; what comes from elsewhere is scattered in it.
       {"LampAndGlowingMediumInFog", volpath(6) + kFog + sensor_inside("fog") + kFloor +
            ball(0.7, R"(<emitter type="area"><rgb name="radiance" value="2, 1, 0.5"/></emitter>)" +
                          medium("interior", kColours, 3, kForward) + refer("exterior", "fog")) +
            ball(0.3, R"(<emitter type="area"><rgb name="radiance" value="8, 7, 6"/></emitter>)", "", 1.2), 0.03, 256},
-      {"LightsInBubbles", volpath(4) + kFog + sensor_inside("fog") + kFloor + ball(0.6, refer("exterior", "fog"), kNull, -1) +
+      {"LightsInBubbles", volpath(4) + kFog + sensor_inside("fog") + kFloor +
+           ball(0.6, refer("exterior", "fog"), kNull, -1) +
            ball(0.6, refer("exterior", "fog"), kNull, 1) + R"(<emitter type="spot"><transform name="to_world">
 <lookat origin="-1, 0, 0" target="0, -1, 0" up="0, 0, 1"/></transform><float name="cutoff_angle" value="50"/>
 <rgb name="intensity" value="5, 6, 7"/></emitter><emitter type="projector"><transform name="to_world">
@@ -155,8 +163,9 @@ const std::vector<MediumScene>& scenes() {
 <texture name="irradiance" type="bitmap"><string name="filename" value="sky.hdr"/></texture></emitter>)", 0.05, 128},
       {"CameraInNestedMedium", volpath(6) + kFog + R"(<medium id="water" type="homogeneous">
 <rgb name="sigma_t" value="0.9, 0.3, 0.1"/></medium>)" +
-           sensor_inside("water", sensor_element(kSize, kSize, "0, 0, 0.5", "0, -0.2, -1", 60)) + kFloor + kLamp + kSky +
-           ball(0.8, refer("interior", "water") + refer("exterior", "fog")) + ball(4, refer("interior", "fog")), 0.03, 128},
+           sensor_inside("water", sensor_element(kSize, kSize, "0, 0, 0.5", "0, -0.2, -1", 60)) + kFloor + kLamp +
+           kSky + ball(0.8, refer("interior", "water") + refer("exterior", "fog")) + ball(4, refer("interior", "fog")),
+       0.03, 128},
   };
   return kScenes;
 }

@@ -90,7 +90,8 @@ TEST_F(MediumGrid, OpticalDepthThroughSpikesAndEmptyVoxels) {
   for (const FilterType filter : {FilterType::kNearest, FilterType::kBilinear}) {
     expect_pixels(column_scene(filter, 1, sky, "4"), column_transmittance(1), "sky");
     // The camera behind the cube: only shadow rays pass it.
-    expect_pixels(column_scene(filter, 1, wall, "-1.55"), 0.5 / std::numbers::pi * column_transmittance(1), "wall");
+    expect_pixels(column_scene(filter, 1, wall, "-1.55"), 0.5 / std::numbers::pi * column_transmittance(1),
+                  "wall");
   }
 }
 

@@ -40,7 +40,8 @@ double quadrature() {
   double sum = 0;
   for (int i = 0; i < kSteps; ++i)
     for (int j = 0; j < kSteps; ++j) {
-      const dvec3 to = dvec3(kHalf * (2 * (i + 0.5) / kSteps - 1), kHalf * (2 * (j + 0.5) / kSteps - 1), kHeight) - kSeen;
+      const double x = kHalf * (2 * (i + 0.5) / kSteps - 1), y = kHalf * (2 * (j + 0.5) / kSteps - 1);
+      const dvec3 to = dvec3(x, y, kHeight) - kSeen;
       const double r2 = glm::dot(to, to);
       sum += to.z * to.z / (r2 * r2);
     }
