@@ -156,6 +156,7 @@ void write_exr(const std::filesystem::path& file, const Image& image) {
       if (Imf::globalThreadCount() < thread_count()) Imf::setGlobalThreadCount(thread_count());
       Imf::Header header(image.width, image.height);
       header.compression() = Imf::ZIP_COMPRESSION;
+      header.zipCompressionLevel() = 1;  // 1.5 % larger than by default, in two thirds of the time
       for (const auto& [name, text] : image.metadata) header.insert(name, Imf::StringAttribute(text));
       Imf::FrameBuffer frame;
       for (size_t i = 0; i < image.names.size(); ++i) {

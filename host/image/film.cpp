@@ -127,7 +127,8 @@ double FilmBuffer::relative_error() const {
   double mean_luminance = 0, variance = 0;
   for (size_t i = 0; i < pixels(); ++i) {
     mean_luminance += glm::dot(luminance, mean(i));
-    variance += glm::dot(luminance * luminance, variance_of_mean(i));
+    const double deviation = glm::dot(luminance, glm::sqrt(variance_of_mean(i)));
+    variance += deviation * deviation;
   }
   const double count = static_cast<double>(pixels());
   return mean_luminance > 0 ? std::sqrt(variance / count) / (mean_luminance / count) : 0;

@@ -60,6 +60,7 @@ class FilmBuffer {
   bool has_variance() const { return blocks_ >= 2; }
 
   /// Estimated relative standard error of the mean pixel: sqrt(mean variance) / mean, of luminance. 0 if unknown.
+  /// The channels are taken to err together, as those of a path do: of coloured noise an over-estimate.
   double relative_error() const;
 
   /// R G B and, with two blocks or more, variance.R/G/B; then the extra channels. With `sums` also all that merging

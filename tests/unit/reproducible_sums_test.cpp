@@ -3,6 +3,7 @@
 #include "image/reproducible_sums.h"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -113,6 +114,27 @@ TEST(FilmBuffer, RangesJoin) {
   EXPECT_EQ(format_ranges(film.ranges()), "0-11");
   EXPECT_EQ(film.samples(), 12u);
   EXPECT_EQ(film.blocks(), 3u);
+}
+
+// Grey noise of known mean: the channels err together. The scatter of 4096 pixels tells the error to 1.1 %; errors of
+// 5 % are seen with probability 0.999.
+TEST(FilmBuffer, RelativeErrorIsThatOfTheImage) {
+  constexpr uint64_t kBlocks = 16, kSamples = 4;
+  FilmBuffer film(64, 64);
+  std::mt19937 random(5);
+  std::exponential_distribution<double> sample(1);
+  for (uint64_t b = 0; b < kBlocks; ++b) {
+    for (size_t i = 0; i < film.pixels(); ++i) {
+      double sum = 0;
+      for (uint64_t k = 0; k < kSamples; ++k) sum += sample(random);
+      film.add_block(i, glm::dvec3(sum), kSamples);
+    }
+    film.finish_blocks({kSamples * b, kSamples});
+  }
+  double squares = 0;
+  for (size_t i = 0; i < film.pixels(); ++i) squares += (film.mean(i).y - 1) * (film.mean(i).y - 1);
+  const double error = std::sqrt(squares / static_cast<double>(film.pixels()));
+  EXPECT_NEAR(film.relative_error() / error, 1, 0.05);
 }
 
 // A million samples a pixel, as blocks of four: the mean is within 1e-6 of the sum in long double, with fireflies too.
