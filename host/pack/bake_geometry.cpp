@@ -17,20 +17,23 @@ using glm::dvec3;
 using glm::vec3;
 
 constexpr uint32_t kLongestPath = 512;  // edges; 64 samples of a lane stay below 65535 iterations
+constexpr int kMostRough = 2;           // rough types of bsdf: each is evaluated for every vertex
 constexpr double kOverlap = 1e-6;       // by which faces are widened: rounding must not open their seams
 
 bool paths_are_short(const FeatureSet& f) { return std::min(f.max_depth, f.roulette_depth) <= kLongestPath; }
 
-// The kernel that follows whole paths has no other bsdf; more would compile for seconds.
-bool is_diffuse(const MaterialClass& c) {
-  return c.max_leaves <= 1 && (c.bsdfs & ~(1u << gpu::kBsdfNull | 1u << gpu::kBsdfDiffuse)) == 0;
+// A class of `null` alone has no leaf that the others' code could load.
+bool bsdfs_fit(const FeatureSet& f) {
+  const auto is_null = [](const MaterialClass& c) { return c.max_leaves == 0; };
+  if (f.classes.empty() || (f.classes.size() > 1 && std::any_of(f.classes.begin(), f.classes.end(), is_null)))
+    return false;
+  return fused_bsdf_variant(f.union_class()) != nullptr;
 }
 
 bool fits(const PackedScene& scene) {
   const FeatureSet& f = scene.features;
   const bool flat = !f.vertex_normals && !f.vertex_uv && f.textures == 0 && !f.light_textures && f.aovs == 0;
-  return flat && f.media == 0 && !f.hide_emitters && f.classes.size() == 1 && is_diffuse(f.classes[0]) &&
-         paths_are_short(f) &&
+  return flat && f.media == 0 && !f.hide_emitters && bsdfs_fit(f) && paths_are_short(f) &&
          scene.bvh.leaf_info.size() <= gpu::kMaxBaked && !scene.bvh.leaf_info.empty();
 }
 
@@ -170,6 +173,21 @@ class Baker {
 };
 
 }  // namespace
+
+const char* fused_bsdf_variant(const MaterialClass& c) {
+  constexpr uint32_t kDiffuse = 1u << gpu::kBsdfNull | 1u << gpu::kBsdfDiffuse;
+  constexpr uint32_t kSmooth =
+      kDiffuse | 1u << gpu::kBsdfConductor | 1u << gpu::kBsdfDielectric | 1u << gpu::kBsdfThinDielectric;
+  constexpr uint32_t kRough = 1u << gpu::kBsdfRoughConductor | 1u << gpu::kBsdfRoughDielectric |
+                              1u << gpu::kBsdfPlastic | 1u << gpu::kBsdfRoughPlastic;
+  constexpr uint32_t kDistributions = gpu::kMaterialBeckmann | gpu::kMaterialGgx;
+  if (c.max_leaves > 1 || (c.flags & (gpu::kMaterialTangent | gpu::kMaterialTextured)) != 0) return nullptr;
+  if ((c.bsdfs & ~kDiffuse) == 0) return "diffuse";
+  if ((c.bsdfs & ~kSmooth) == 0) return "smooth";
+  if ((c.bsdfs & ~(kSmooth | kRough)) != 0) return nullptr;
+  const int rough = std::popcount(c.bsdfs & kRough) * ((c.flags & kDistributions) == kDistributions ? 2 : 1);
+  return rough <= kMostRough ? "rough" : nullptr;
+}
 
 std::optional<BakedGeometry> bake_geometry(const PackedScene& scene) {
   if (!fits(scene)) return std::nullopt;

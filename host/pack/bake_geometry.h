@@ -17,9 +17,13 @@ struct BakedGeometry {
   uint32_t count = 0;
 };
 
-/// Empty where the scene does not fit: more than kMaxBaked primitives, disks or cylinders, several material classes,
-/// anything that needs uv, tangents or vertex normals, media, hidden emitters, or paths so long that they could exceed the iterations
-/// that Mesa 22.3.6 allows one invocation.
+/// Which variant of the kernel that follows whole paths (shaders/CMakeLists.txt) has the bsdfs of the class: "diffuse",
+/// "smooth" or "rough"; nullptr: none.
+const char* fused_bsdf_variant(const MaterialClass& c);
+
+/// Empty where the scene does not fit: more than kMaxBaked primitives, disks or cylinders, bsdfs beyond those of
+/// fused_bsdf_variant, anything that needs uv, tangents or vertex normals, media, hidden emitters, or paths so long that
+/// they could exceed the iterations that Mesa 22.3.6 allows one invocation.
 std::optional<BakedGeometry> bake_geometry(const PackedScene& scene);
 
 }  // namespace tachylite

@@ -49,6 +49,13 @@ std::vector<Named> named_features(const FeatureSet& f) {
           {f.aovs != 0, "auxiliary channels"}};
 }
 
+void set_class(std::map<uint32_t, uint32_t>& constants, const MaterialClass& c) {
+  constants[gpu::kFeatureBsdfs] = c.bsdfs;
+  constants[gpu::kFeatureMaterial] = c.flags;
+  constants[gpu::kFeatureMaxLeaves] = c.max_leaves;
+  constants[gpu::kFeatureTexturedInputs] = c.textured;
+}
+
 }  // namespace
 
 bool FeatureSet::area_lights() const {
@@ -86,29 +93,32 @@ std::map<uint32_t, uint32_t> FeatureSet::constants() const {
 
 std::map<uint32_t, uint32_t> FeatureSet::class_constants(size_t index) const {
   std::map<uint32_t, uint32_t> values = constants();
-  const MaterialClass& c = classes[index];
-  values[gpu::kFeatureBsdfs] = c.bsdfs;
-  values[gpu::kFeatureMaterial] = c.flags;
-  values[gpu::kFeatureMaxLeaves] = c.max_leaves;
-  values[gpu::kFeatureTexturedInputs] = c.textured;
+  set_class(values, classes[index]);
   values[gpu::kFeatureClass] = static_cast<uint32_t>(index);
   return values;
 }
 
-std::map<uint32_t, uint32_t> FeatureSet::union_constants() const {
-  std::map<uint32_t, uint32_t> values = constants();
+MaterialClass FeatureSet::union_class() const {
   MaterialClass all;
+  bool one_sided = false;
   for (const MaterialClass& c : classes) {
     all.bsdfs |= c.bsdfs;
     all.flags |= c.flags;
     all.max_leaves = std::max(all.max_leaves, c.max_leaves);
     all.textured |= c.textured;
+    one_sided |= c.max_leaves > 0 && (c.flags & (gpu::kMaterialTwoSided | gpu::kMaterialSides)) == 0;
   }
+  // Where only some materials mirror, the leaves tell.
+  if ((all.flags & gpu::kMaterialTwoSided) != 0 && (one_sided || (all.flags & gpu::kMaterialSides) != 0))
+    all.flags = (all.flags & ~gpu::kMaterialTwoSided) | gpu::kMaterialSides;
+  return all;
+}
+
+std::map<uint32_t, uint32_t> FeatureSet::union_constants() const {
+  std::map<uint32_t, uint32_t> values = constants();
+  MaterialClass all = union_class();
   if (aovs & (1u << gpu::kAovDpDu | 1u << gpu::kAovDpDv)) all.flags |= gpu::kMaterialTangent;
-  values[gpu::kFeatureBsdfs] = all.bsdfs;
-  values[gpu::kFeatureMaterial] = all.flags;
-  values[gpu::kFeatureMaxLeaves] = all.max_leaves;
-  values[gpu::kFeatureTexturedInputs] = all.textured;
+  set_class(values, all);
   return values;
 }
 

@@ -45,7 +45,9 @@ struct FeatureSet {
   std::map<uint32_t, uint32_t> constants() const;
   /// The same with the constants of class `index`.
   std::map<uint32_t, uint32_t> class_constants(size_t index) const;
-  /// The same with the constants of a class that has what any class has: for the first hits' auxiliary outputs.
+  /// A class that has what any class has: kernels compiled for it serve the materials of all.
+  MaterialClass union_class() const;
+  /// constants() with those of union_class().
   std::map<uint32_t, uint32_t> union_constants() const;
   /// "area lights", "8-bit sRGB textures", ... for people: what is there, and what is not.
   std::vector<std::string> present() const, absent() const;

@@ -52,10 +52,11 @@ Kernels build_kernels(vulkan::Device& device, const vulkan::BindingTable& table,
     return std::make_unique<Kernel>(device, table, name, kernel_spirv(file), constants);
   };
   if (baked) {
-    SpecializationConstants constants = with_sampler(features.class_constants(0));
+    SpecializationConstants constants = with_sampler(features.union_constants());
     constants.insert(baked->constants.begin(), baked->constants.end());
     const uint32_t rounded = (baked->count + 7) / 8 * 8;
-    const std::string file = fmt::format("follow_paths_{}", rounded <= 32 ? rounded : gpu::kMaxBaked);
+    const std::string file = fmt::format("follow_paths_{}_{}", rounded <= 32 ? rounded : gpu::kMaxBaked,
+                                         fused_bsdf_variant(features.union_class()));
     kernels.follow_paths = make("follow_paths", file, constants);
     kernels.skipped = {"tree", "path state and queues", "intersect_closest", "intersect_shadow", "shade_surface"};
     return kernels;

@@ -1,7 +1,9 @@
 // One kernel for whole paths and the stages take the same samples through the same code: their images differ only
 // where rounding sends a path another way.
 
+#include <array>
 #include <cmath>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -56,6 +58,46 @@ TEST_F(Structure, SpheresTrianglesAndPointLight) {
 <emitter type="point"><point name="position" x="2" y="2" z="2"/><rgb name="intensity" value="3, 3, 3"/></emitter>
 <emitter type="constant"><rgb name="radiance" value="0.1, 0.2, 0.3"/></emitter>)",
       {{"t.obj", obj}}));
+}
+
+// Two balls, a plate and a lid of the given bsdfs in the Cornell box.
+std::string with_materials(const std::array<std::string, 4>& bsdfs) {
+  return cornell_elements(24) + R"(
+<shape type="sphere"><float name="radius" value="0.3"/><point name="center" x="0.45" y="-0.65" z="0.4"/>)" + bsdfs[0] +
+         R"(</shape><shape type="sphere"><float name="radius" value="0.3"/><point name="center" x="-0.4" y="-0.6" z="0.2"/>)" +
+         bsdfs[1] + R"(</shape><shape type="rectangle"><transform name="to_world"><scale value="0.3"/>
+<rotate x="1" y="1" angle="-40"/><translate x="0" y="0.2" z="0.1"/></transform>)" + bsdfs[2] +
+         R"(</shape><shape type="cube"><transform name="to_world"><scale value="0.15"/><rotate y="1" angle="20"/>
+<translate x="0.1" y="-0.8" z="0.75"/></transform>)" + bsdfs[3] + "</shape>";
+}
+
+TEST_F(Structure, SmoothMaterials) {
+  expect_same_paths(scene_from_elements(with_materials(
+      {R"(<bsdf type="dielectric"/>)", R"(<bsdf type="conductor"><string name="material" value="Au"/></bsdf>)",
+       R"(<bsdf type="thindielectric"/>)", R"(<bsdf type="diffuse"/>)"})));
+}
+
+TEST_F(Structure, RoughMaterials) {
+  expect_same_paths(scene_from_elements(with_materials(
+      {R"(<bsdf type="roughdielectric"><string name="distribution" value="ggx"/><float name="alpha" value="0.2"/></bsdf>)",
+       R"(<bsdf type="roughconductor"><string name="distribution" value="ggx"/><float name="alpha" value="0.3"/></bsdf>)",
+       R"(<bsdf type="dielectric"/>)", R"(<bsdf type="conductor"/>)"})));
+  expect_same_paths(scene_from_elements(with_materials(
+      {R"(<bsdf type="roughplastic"><float name="alpha" value="0.2"/></bsdf>)", R"(<bsdf type="plastic"/>)",
+       R"(<bsdf type="diffuse"/>)", R"(<bsdf type="dielectric"/>)"})));
+}
+
+// Some materials have two sides, some one, some two different ones: a class of all must ask the leaf.
+TEST_F(Structure, SidesAndMasks) {
+  const std::string diffuse = R"(<bsdf type="diffuse"><rgb name="reflectance" value="0.8, 0.2, 0.1"/></bsdf>)";
+  const std::string metal = R"(<bsdf type="conductor"><string name="material" value="Cu"/></bsdf>)";
+  expect_same_paths(scene_from_elements(with_materials(
+      {diffuse, R"(<bsdf type="twosided">)" + metal + "</bsdf>",
+       R"(<bsdf type="twosided">)" + diffuse + metal + "</bsdf>", metal})));
+  expect_same_paths(scene_from_elements(with_materials(
+      {R"(<bsdf type="mask"><float name="opacity" value="0.4"/>)" + metal + "</bsdf>", R"(<bsdf type="dielectric"/>)",
+       R"(<bsdf type="mask"><float name="opacity" value="0.7"/><bsdf type="twosided">)" + diffuse + "</bsdf></bsdf>",
+       R"(<bsdf type="twosided">)" + diffuse + "</bsdf>"})));
 }
 
 TEST_F(Structure, RefusesWhatDoesNotFit) {
