@@ -28,10 +28,18 @@ TraceRay fetch_ray(uint i) {
 
 bool is_emitter(uint hit) { return (texelFetch(leaf_info, int(hit >> 1u)).z & kLeafEmits) != 0u; }
 
-void store_hit(uint i, TraceHit hit) {
+// Whether ray i is a part of the camera's edge; null surfaces on the way do not end that.
+bool is_cameras(uint i) {
 #ifdef PRIMARY
+  return true;
+#else
+  return is_volumetric() && load_volume_path(load_queue(wave.ray_queue, i)).edges == 1u;
+#endif
+}
+
+void store_hit(uint i, TraceHit hit) {
   // Area lights are transparent to the camera.
-  if (hide_emitters) {
+  if (hide_emitters && is_cameras(i)) {
     TraceRay ray = fetch_ray(i);
     bool hidden = hit.id != kNoHit && is_emitter(hit.id);
     for (int k = 0; k < 8 && hidden; ++k) {
@@ -42,7 +50,6 @@ void store_hit(uint i, TraceHit hit) {
       hidden = hit.id != kNoHit && is_emitter(hit.id);
     }
   }
-#endif
   store_path(kPathHit, load_queue(wave.ray_queue, i), vec4(uintBitsToFloat(hit.id), hit.b1, hit.b2, hit.t));
   hit_ids[i % kRaysPerGroup] = hit.id;
 }
