@@ -102,5 +102,16 @@ TEST(ReferenceMicrofacets, RoughBoundaryTables) {
   }
 }
 
+/// The long tails of GGX: values of 600 x 300 points of a Gauss rule over the spherical caps of visible normals.
+TEST(ReferenceMicrofacets, RoughBoundaryOfGgx) {
+  const auto transmitted = [](double alpha, double cos_o) {
+    return rough_boundary_transmittance(Microfacets(MicrofacetDistribution::kGgx, alpha, alpha), 1.5, cos_o);
+  };
+  EXPECT_NEAR(transmitted(0.0382468, 20 / 63.), 0.810232939, 2e-5);
+  EXPECT_NEAR(transmitted(0.0382468, 51 / 63.), 0.956058204, 2e-5);
+  EXPECT_NEAR(transmitted(0.1, 20 / 63.), 0.817776422, 2e-5);
+  EXPECT_NEAR(transmitted(0.1, 51 / 63.), 0.953998154, 2e-5);
+}
+
 }  // namespace
 }  // namespace tachylite
