@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "shared/baked.h"
 #include "shared/geometry.h"
 #include "shared/light.h"
@@ -22,18 +24,39 @@ constexpr double kOverlap = 1e-6;       // by which faces are widened: rounding 
 
 bool paths_are_short(const FeatureSet& f) { return std::min(f.max_depth, f.roulette_depth) <= kLongestPath; }
 
+// The bsdfs of a kernel for whole paths, and the numbers of primitives that it comes for; shaders/CMakeLists.txt.
+struct FusedKernel {
+  const char* bsdfs;
+  std::vector<uint32_t> counts;
+};
+
+// The kernel that has the bsdfs of the class; none if none does, or if another structure is faster.
+std::optional<FusedKernel> fused_kernel(const MaterialClass& c) {
+  constexpr uint32_t kDiffuse = 1u << gpu::kBsdfNull | 1u << gpu::kBsdfDiffuse;
+  constexpr uint32_t kSmooth =
+      kDiffuse | 1u << gpu::kBsdfConductor | 1u << gpu::kBsdfDielectric | 1u << gpu::kBsdfThinDielectric;
+  constexpr uint32_t kRough = 1u << gpu::kBsdfRoughConductor | 1u << gpu::kBsdfRoughDielectric |
+                              1u << gpu::kBsdfPlastic | 1u << gpu::kBsdfRoughPlastic;
+  constexpr uint32_t kDistributions = gpu::kMaterialBeckmann | gpu::kMaterialGgx;
+  if (c.max_leaves > 1 || (c.flags & (gpu::kMaterialTangent | gpu::kMaterialTextured)) != 0) return std::nullopt;
+  if ((c.bsdfs & ~kDiffuse) == 0) return FusedKernel{"diffuse", {8, 16, 24, 32, 64}};
+  if ((c.bsdfs & ~kSmooth) == 0) return FusedKernel{"smooth", {16, 32, 64}};
+  if ((c.bsdfs & ~(kSmooth | kRough)) != 0) return std::nullopt;
+  const int rough = std::popcount(c.bsdfs & kRough) * ((c.flags & kDistributions) == kDistributions ? 2 : 1);
+  if (rough > kMostRough) return std::nullopt;
+  return FusedKernel{"rough", {16, 32}};
+}
+
 // A class of `null` alone has no leaf that the others' code could load.
-bool bsdfs_fit(const FeatureSet& f) {
+bool leaves_fit(const FeatureSet& f) {
   const auto is_null = [](const MaterialClass& c) { return c.max_leaves == 0; };
-  if (f.classes.empty() || (f.classes.size() > 1 && std::any_of(f.classes.begin(), f.classes.end(), is_null)))
-    return false;
-  return fused_bsdf_variant(f.union_class()) != nullptr;
+  return f.classes.size() == 1 || (!f.classes.empty() && std::none_of(f.classes.begin(), f.classes.end(), is_null));
 }
 
 bool fits(const PackedScene& scene) {
   const FeatureSet& f = scene.features;
   const bool flat = !f.vertex_normals && !f.vertex_uv && f.textures == 0 && !f.light_textures && f.aovs == 0;
-  return flat && f.media == 0 && !f.hide_emitters && bsdfs_fit(f) && paths_are_short(f) &&
+  return flat && f.media == 0 && !f.hide_emitters && leaves_fit(f) && paths_are_short(f) &&
          scene.bvh.leaf_info.size() <= gpu::kMaxBaked && !scene.bvh.leaf_info.empty();
 }
 
@@ -174,27 +197,20 @@ class Baker {
 
 }  // namespace
 
-const char* fused_bsdf_variant(const MaterialClass& c) {
-  constexpr uint32_t kDiffuse = 1u << gpu::kBsdfNull | 1u << gpu::kBsdfDiffuse;
-  constexpr uint32_t kSmooth =
-      kDiffuse | 1u << gpu::kBsdfConductor | 1u << gpu::kBsdfDielectric | 1u << gpu::kBsdfThinDielectric;
-  constexpr uint32_t kRough = 1u << gpu::kBsdfRoughConductor | 1u << gpu::kBsdfRoughDielectric |
-                              1u << gpu::kBsdfPlastic | 1u << gpu::kBsdfRoughPlastic;
-  constexpr uint32_t kDistributions = gpu::kMaterialBeckmann | gpu::kMaterialGgx;
-  if (c.max_leaves > 1 || (c.flags & (gpu::kMaterialTangent | gpu::kMaterialTextured)) != 0) return nullptr;
-  if ((c.bsdfs & ~kDiffuse) == 0) return "diffuse";
-  if ((c.bsdfs & ~kSmooth) == 0) return "smooth";
-  if ((c.bsdfs & ~(kSmooth | kRough)) != 0) return nullptr;
-  const int rough = std::popcount(c.bsdfs & kRough) * ((c.flags & kDistributions) == kDistributions ? 2 : 1);
-  return rough <= kMostRough ? "rough" : nullptr;
-}
-
 std::optional<BakedGeometry> bake_geometry(const PackedScene& scene) {
   if (!fits(scene)) return std::nullopt;
+  const std::optional<FusedKernel> kernel = fused_kernel(scene.features.union_class());
+  if (!kernel) return std::nullopt;
   Baker baker(scene);
   for (uint32_t leaf = 0; leaf < scene.bvh.leaf_info.size(); ++leaf)
     if (!baker.add_leaf(leaf)) return std::nullopt;
-  return baker.take();
+  BakedGeometry baked = baker.take();
+  for (const uint32_t count : kernel->counts)
+    if (count >= baked.count) {
+      baked.kernel = fmt::format("follow_paths_{}_{}", count, kernel->bsdfs);
+      return baked;
+    }
+  return std::nullopt;
 }
 
 }  // namespace tachylite

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -15,15 +16,13 @@ struct BakedGeometry {
   std::map<uint32_t, uint32_t> constants;  // by constant id; floats by their bits
   std::vector<glm::vec4> rows;             // kBakedRows a primitive
   uint32_t count = 0;
+  std::string kernel;                      // the variant that holds them: "follow_paths_..." of shaders/CMakeLists.txt
 };
 
-/// Which variant of the kernel that follows whole paths (shaders/CMakeLists.txt) has the bsdfs of the class: "diffuse",
-/// "smooth" or "rough"; nullptr: none.
-const char* fused_bsdf_variant(const MaterialClass& c);
-
-/// Empty where the scene does not fit: more than kMaxBaked primitives, disks or cylinders, bsdfs beyond those of
-/// fused_bsdf_variant, anything that needs uv, tangents or vertex normals, media, hidden emitters, or paths so long that
-/// they could exceed the iterations that Mesa 22.3.6 allows one invocation.
+/// Empty where the scene does not fit: more than kMaxBaked primitives (32 beside rough bsdfs), disks or cylinders, more
+/// than two rough types of bsdf or others than smooth ones, plastics and rough conductors and dielectrics, anything that
+/// needs uv, tangents or vertex normals, media, hidden emitters, or paths so long that they could exceed the iterations
+/// that Mesa 22.3.6 allows one invocation.
 std::optional<BakedGeometry> bake_geometry(const PackedScene& scene);
 
 }  // namespace tachylite

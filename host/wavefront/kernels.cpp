@@ -2,12 +2,9 @@
 
 #include <bit>
 
-#include <fmt/format.h>
-
 #include "kernel_spirv.h"
 #include "pack/pack_material.h"
 #include "shared/aov.h"
-#include "shared/baked.h"
 #include "shared/material.h"
 #include "shared/medium.h"
 
@@ -54,10 +51,7 @@ Kernels build_kernels(vulkan::Device& device, const vulkan::BindingTable& table,
   if (baked) {
     SpecializationConstants constants = with_sampler(features.union_constants());
     constants.insert(baked->constants.begin(), baked->constants.end());
-    const uint32_t rounded = (baked->count + 7) / 8 * 8;
-    const std::string file = fmt::format("follow_paths_{}_{}", rounded <= 32 ? rounded : gpu::kMaxBaked,
-                                         fused_bsdf_variant(features.union_class()));
-    kernels.follow_paths = make("follow_paths", file, constants);
+    kernels.follow_paths = make("follow_paths", baked->kernel, constants);
     kernels.skipped = {"tree", "path state and queues", "intersect_closest", "intersect_shadow", "shade_surface"};
     return kernels;
   }
