@@ -75,7 +75,7 @@ bool samples_segments(const FeatureSet& features) {
 }
 
 // leaf_info names class and emission, so that intersect_closest sorts paths with one load.
-void mark_leaves(const Geometry& geometry, const std::vector<uint32_t>& class_of_shape,
+void mark_leaves(const Scene& scene, const Geometry& geometry, const std::vector<uint32_t>& class_of_shape,
                  const std::vector<bool>& shape_emits, PackedScene& out) {
   for (uvec4& info : out.bvh.leaf_info) {
     const bool curved = (info.z & gpu::kLeafKindMask) != gpu::kLeafTriangles;
@@ -83,6 +83,7 @@ void mark_leaves(const Geometry& geometry, const std::vector<uint32_t>& class_of
                                   : geometry.shape_of_triangle[info.x];
     info.z |= class_of_shape[shape] << gpu::kLeafClassShift;
     if (shape_emits[shape]) info.z |= gpu::kLeafEmits;
+    if (scene.shapes[shape].emitter != kNone) info.z |= gpu::kLeafHides;
     // Curved primitives are found by their rows.
     if (curved) info.x = (info.x - static_cast<uint32_t>(geometry.triangles.size())) * gpu::kCurvedRows;
   }
@@ -179,7 +180,7 @@ PackedScene pack_scene(const Scene& scene, int sensor_index) {
                                media.index(shape.interior) | media.index(shape.exterior) << 16));
     out.shapes.push_back(uvec4(range.first_primitive, range.primitive_count, gpu::kNoIndex, 0));
   }
-  mark_leaves(geometry, class_of_shape, shape_emits, out);
+  mark_leaves(scene, geometry, class_of_shape, shape_emits, out);
   put_vertices(geometry, out);
   put_primitives(geometry, out);
 

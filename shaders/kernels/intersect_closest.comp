@@ -26,7 +26,7 @@ TraceRay fetch_ray(uint i) {
   return TraceRay(o.xyz, d.xyz, tmax, floatBitsToUint(o.w), kNoHit);
 }
 
-bool is_emitter(uint hit) { return (texelFetch(leaf_info, int(hit >> 1u)).z & kLeafEmits) != 0u; }
+bool is_emitter(uint hit) { return (texelFetch(leaf_info, int(hit >> 1u)).z & kLeafHides) != 0u; }
 
 // Whether ray i is a part of the camera's edge; null surfaces on the way do not end that.
 bool is_cameras(uint i) {

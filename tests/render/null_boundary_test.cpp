@@ -86,7 +86,8 @@ TEST_F(NullBoundary, ShadowRaysStopShortOfTheirLight) {
   }
 }
 
-// hide_emitters: the camera sees a wall in the sun through a lamp that faces it, whose light does not reach the wall.
+// hide_emitters: the camera sees a wall in the sun through lamps that face it, whose light does not reach the wall. One
+// sends its light in one direction only, which no ray finds: it is taken away all the same.
 TEST_F(NullBoundary, LampsBehindThemAreHidden) {
   const Scene scene = scene_from_elements(
       R"(<integrator type="volpath"><integer name="max_depth" value="2"/><boolean name="hide_emitters" value="true"/>
@@ -95,6 +96,8 @@ TEST_F(NullBoundary, LampsBehindThemAreHidden) {
 <translate z="3"/></transform><bsdf type="null"/></shape>
 <shape type="rectangle"><transform name="to_world"><translate z="1"/></transform>
 <emitter type="area"><rgb name="radiance" value="7"/></emitter></shape>
+<shape type="disk"><transform name="to_world"><scale value="0.8"/><translate z="1.5"/></transform>
+<emitter type="directionalarea"><rgb name="radiance" value="7"/></emitter></shape>
 <shape type="rectangle"><transform name="to_world"><scale value="9"/></transform>
 <bsdf type="diffuse"><rgb name="reflectance" value="0.5"/></bsdf></shape>
 <emitter type="directional"><vector name="direction" value="4, 0, -3"/><rgb name="irradiance" value="2"/></emitter>)");
