@@ -50,14 +50,16 @@ using EnvironmentSun = DeviceTest;
 
 TEST_F(EnvironmentSun, OneTexelAt1e8) {
   for (const int row : {0, 8, kHorizon, 20}) {
-    Scene scene = scene_from_elements(R"(<integrator type="direct"/>)" + sensor_element(8, 8, "0, 0, 4", "0, 0, 0", 10) +
-        fmt::format(R"(<shape type="rectangle"><transform name="to_world"><scale value="9"/></transform><bsdf type="diffuse">
-<float name="reflectance" value="{}"/></bsdf></shape><emitter type="constant"/>)", kAlbedo));
+    Scene scene = scene_from_elements(
+        R"(<integrator type="direct"/>)" + sensor_element(8, 8, "0, 0, 4", "0, 0, 0", 10) +
+        fmt::format(R"(<shape type="rectangle"><transform name="to_world"><scale value="9"/></transform>
+<bsdf type="diffuse"><float name="reflectance" value="{}"/></bsdf></shape><emitter type="constant"/>)", kAlbedo));
     // Its y is the world's z.
-    const glm::dmat4 to_world(glm::dvec4(0, 1, 0, 0), glm::dvec4(0, 0, 1, 0), glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 0, 0, 1));
+    const glm::dmat4 to_world(0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0, 1);
     scene.emitters[0] = {{}, "envmap", EnvironmentEmitter{map_with_sun(row), false, 1, to_world}, kNone};
     // Five standard errors of at most 1 %: a bias of 7.4 % is seen with a power of 0.99.
-    expect_stress(scene, {.name = fmt::format("sun of one texel at 1e8, {:.1f} degrees from the zenith", 180.0 * row / (kRows - 1)),
+    const double degrees = 180.0 * row / (kRows - 1);
+    expect_stress(scene, {.name = fmt::format("sun of one texel at 1e8, {:.1f} degrees from the zenith", degrees),
                           .samples = 512, .bound = 1e-5, .error = certain_mean(plane_radiance(row), 1e-2)});
   }
 }

@@ -16,9 +16,9 @@ TEST_F(LongPaths, FiveThousandBouncesInAWhiteRoom) {
   // White walls that emit 2^-12: an edge adds 2^-12, and sums of them are exact.
   constexpr int kDepth = 5000;
   Scene scene = scene_from_elements(fmt::format(R"(<integrator type="path"><integer name="max_depth" value="{}"/>
-<integer name="rr_depth" value="1000000"/></integrator>)", kDepth) + sensor_element(4, 4, "0.2, 0.1, 0.5", "0, 0, 0", 60) +
-      R"(<shape type="cube"><boolean name="flip_normals" value="true"/><bsdf type="diffuse"><float name="reflectance" value="1"/>
-</bsdf><emitter type="area"><float name="radiance" value="0.000244140625"/></emitter></shape>)");
+<integer name="rr_depth" value="1000000"/></integrator>)", kDepth) +
+      sensor_element(4, 4, "0.2, 0.1, 0.5", "0, 0, 0", 60) + R"(<shape type="cube">
+<boolean name="flip_normals" value="true"/><bsdf type="diffuse"><float name="reflectance" value="1"/></bsdf><emitter type="area"><float name="radiance" value="0.000244140625"/></emitter></shape>)");
   scene.integrator.strategy = Integrator::Strategy::kBsdfOnly;
   expect_stress(scene, {.name = "5000 bounces in a white room", .samples = 1, .bound = 1e-6,
                         .error = worst_pixel(std::ldexp(kDepth, -12))});

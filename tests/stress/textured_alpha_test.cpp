@@ -19,8 +19,8 @@ Scene stripes(const std::string& bsdf, double angle, FilterType filter) {
   const int size = kStripe * static_cast<int>(kAlphas.size());
   Scene scene = scene_from_elements(fmt::format(R"(<integrator type="path"><integer name="max_depth" value="3"/>
 <integer name="rr_depth" value="100"/></integrator><sensor type="orthographic"><transform name="to_world">
-<lookat origin="0, {}, {}" target="0, 0, 0" up="1, 0, 0"/></transform><film type="hdrfilm"><integer name="width" value="{}"/>
-<integer name="height" value="{}"/><rfilter type="box"/></film></sensor><shape type="rectangle"><transform name="to_world">
+<lookat origin="0, {}, {}" target="0, 0, 0" up="1, 0, 0"/></transform><film type="hdrfilm">
+<integer name="width" value="{}"/><integer name="height" value="{}"/><rfilter type="box"/></film></sensor><shape type="rectangle"><transform name="to_world">
 <scale y="4"/></transform>{}</shape><emitter type="constant"/>)", std::sin(angle), std::cos(angle), size, size, bsdf));
   auto bitmap = std::make_shared<Bitmap>();
   bitmap->width = static_cast<int>(kAlphas.size());
