@@ -1,5 +1,5 @@
-// A sun of one texel at 1e8 in a sky of 1, over a diffuse plane whose normal is the map's zenith. The map is bilinear in
-// azimuth and polar angle t, rows at distance h: a texel is a tent in both, so with W columns it adds
+// A sun of one texel at 1e8 in a sky of 1, over a diffuse plane whose normal is the map's zenith. The map is bilinear
+// in azimuth and polar angle t, rows at distance h: a texel is a tent in both, so with W columns it adds
 //   E = (L - 1) 2 pi / W integral of (1 - |t - t0| / h) cos t sin t
 //     = (L - 1) 2 pi / W sin(2 t0) sin^2(h) / (2 h) above the horizon, and
 //       (L - 1) 2 pi / W (1/4 - sin(2 h) / (8 h)) at the zenith and, half of it being below, on the horizon

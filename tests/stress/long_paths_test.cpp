@@ -18,7 +18,8 @@ TEST_F(LongPaths, FiveThousandBouncesInAWhiteRoom) {
   Scene scene = scene_from_elements(fmt::format(R"(<integrator type="path"><integer name="max_depth" value="{}"/>
 <integer name="rr_depth" value="1000000"/></integrator>)", kDepth) +
       sensor_element(4, 4, "0.2, 0.1, 0.5", "0, 0, 0", 60) + R"(<shape type="cube">
-<boolean name="flip_normals" value="true"/><bsdf type="diffuse"><float name="reflectance" value="1"/></bsdf><emitter type="area"><float name="radiance" value="0.000244140625"/></emitter></shape>)");
+<boolean name="flip_normals" value="true"/><bsdf type="diffuse"><float name="reflectance" value="1"/></bsdf>
+<emitter type="area"><float name="radiance" value="0.000244140625"/></emitter></shape>)");
   scene.integrator.strategy = Integrator::Strategy::kBsdfOnly;
   expect_stress(scene, {.name = "5000 bounces in a white room", .samples = 1, .bound = 1e-6,
                         .error = worst_pixel(std::ldexp(kDepth, -12))});
@@ -30,7 +31,8 @@ TEST_F(LongPaths, WhiteGridOfZerosOnesAndSpikes) {
   std::vector<float> values;
   for (int z = 0; z < kVoxels; ++z)
     for (int y = 0; y < kVoxels; ++y)
-      for (int x = 0; x < kVoxels; ++x) values.push_back(x % 2 && y % 2 && z % 2 ? 1e4f : static_cast<float>((x + y + z) % 2));
+      for (int x = 0; x < kVoxels; ++x)
+        values.push_back(x % 2 && y % 2 && z % 2 ? 1e4f : static_cast<float>((x + y + z) % 2));
   for (const char* filter : {"nearest", "trilinear"})
     expect_stress(scene_from_elements(R"(<integrator type="volpath"><integer name="max_depth" value="-1"/>
 <integer name="rr_depth" value="1000000"/></integrator>)" + sensor_element(8, 8, "0, 0, 5", "0, 0, 0", 24) +
