@@ -66,7 +66,8 @@ void set_media_features(const Scene& scene, const Sensor& sensor, const PackedMe
   features.camera_medium = media.index(sensor.medium);
 }
 
-// Whether light is sampled along segments: in homogeneous media, from lights without extent that a loop can choose among.
+// Whether light is sampled along segments: in homogeneous media, from lights without extent that a loop can choose
+// among.
 bool samples_segments(const FeatureSet& features) {
   const bool points = features.has_light(gpu::kLightPoint) || features.has_light(gpu::kLightSpot) ||
                       features.has_light(gpu::kLightProjector);

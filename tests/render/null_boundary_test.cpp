@@ -1,5 +1,5 @@
-// Null surfaces that hold nothing: shadow rays through them end at the light that they were aimed at, and what is hidden
-// from the camera is hidden behind them, too.
+// Null surfaces that hold nothing: shadow rays through them end at the light that they were aimed at, and what is
+// hidden from the camera is hidden behind them, too.
 
 #include <cmath>
 #include <numbers>
@@ -107,8 +107,8 @@ TEST_F(NullBoundary, LampsBehindThemAreHidden) {
   const DeviceRender rendered = render_on_device(scene, device_options);
   for (size_t i = 0; i < 64; ++i)
     EXPECT_NEAR(rendered.film.mean(i).x, expected, 1e-5 * expected) << "device, pixel " << i;
-  // The reference chooses between lamp and sun by chance: 0.55 % of deviation. Were the lamp seen, or dark, nothing of the
-  // wall would be.
+  // The reference chooses between lamp and sun by chance: 0.55 % of deviation. Were the lamp seen, or dark, nothing of
+  // the wall would be.
   ReferenceOptions options;
   options.samples = 512;
   const FilmBuffer reference = render_reference(scene, options).film;
