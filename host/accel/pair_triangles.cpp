@@ -135,8 +135,8 @@ class Matcher {
     for (size_t v = 1; v < bucket.size(); ++v) bucket[v] += bucket[v - 1];
     std::vector<uint64_t> edges(bucket.back());
     for_half_edges([&](uint32_t half_edge, uint32_t from, uint32_t to) {
-      edges[bucket[std::min(from, to)] + partner_[half_edge]] = static_cast<uint64_t>(std::max(from, to)) << 32 | static_cast<uint64_t>(half_edge) << 1 |
-                  (from > to);
+      edges[bucket[std::min(from, to)] + partner_[half_edge]] =
+          static_cast<uint64_t>(std::max(from, to)) << 32 | static_cast<uint64_t>(half_edge) << 1 | (from > to);
       partner_[half_edge] = kNone;
     });
     // Sorting makes their order independent of the threads.

@@ -89,7 +89,7 @@ int bend(const Triangle& t, const dvec3& n) {
 struct FlatContext {
   const LightRadiance& radiance;
   bool flip;
-  double density;  // that Mitsuba samples the mesh's points with, its choice of the mesh included [1/area]
+  double density;  // of meshes with normals: that Mitsuba samples points with, its choice of the mesh included [1/area]
 };
 
 double mesh_area(const Geometry& geometry, const ShapeGeometry& range) {
@@ -97,12 +97,6 @@ double mesh_area(const Geometry& geometry, const ShapeGeometry& range) {
   for (uint32_t i = 0; i < range.primitive_count; ++i)
     area += glm::length(area_vector(load_triangle(geometry, range, range.first_primitive + i)));
   return area;
-}
-
-size_t sampled_emitters(const Scene& scene) {
-  return static_cast<size_t>(std::count_if(scene.emitters.begin(), scene.emitters.end(), [](const Emitter& emitter) {
-    return !std::holds_alternative<DirectionalAreaEmitter>(emitter.kind);
-  }));
 }
 
 LightRecord flat_record(const FlatContext& context, const Triangle& t, bool rectangle, uint32_t first_primitive,
@@ -166,12 +160,13 @@ LightRecord flat_record(const FlatContext& context, const Triangle& t, bool rect
   return r;
 }
 
-std::vector<LightRecord> flat_records(const Scene& scene, const Geometry& geometry, size_t s,
-                                      const LightRadiance& radiance, const std::vector<uint32_t>& hits) {
+std::vector<LightRecord> flat_records(const Geometry& geometry, size_t s, const LightRadiance& radiance,
+                                      size_t emitters, const std::vector<uint32_t>& hits) {
   const ShapeGeometry& range = geometry.shapes[s];
   const uint32_t first = range.first_primitive, count = range.primitive_count;
-  const double emitters = static_cast<double>(sampled_emitters(scene));
-  const FlatContext context{radiance, range.flip_normals, 1 / (emitters * mesh_area(geometry, range))};
+  const double density =
+      range.has_normals ? 1 / (static_cast<double>(emitters) * mesh_area(geometry, range)) : 0;
+  const FlatContext context{radiance, range.flip_normals, density};
   const bool attribute = radiance.texture && std::holds_alternative<MeshAttributeTexture>(radiance.texture->kind);
   const bool with_uv = radiance.texture != nullptr;
   std::vector<LightRecord> records;
@@ -267,10 +262,11 @@ LightRecord curved_record(const Scene& scene, const Geometry& geometry, size_t s
 }  // namespace
 
 std::vector<LightRecord> area_light_records(const Scene& scene, const Geometry& geometry, size_t s,
-                                            const LightRadiance& radiance, const std::vector<uint32_t>& hits) {
+                                            const LightRadiance& radiance, size_t emitters,
+                                            const std::vector<uint32_t>& hits) {
   if (geometry.shapes[s].first_primitive >= geometry.triangles.size())
     return {curved_record(scene, geometry, s, radiance, hits.at(0))};
-  return flat_records(scene, geometry, s, radiance, hits);
+  return flat_records(geometry, s, radiance, emitters, hits);
 }
 
 }  // namespace tachylite

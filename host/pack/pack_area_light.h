@@ -32,9 +32,11 @@ struct LightRadiance {
 };
 
 /// Records of shape `s` in order of its primitives, one for each triangle (or two, with kLightPairs) or one for a
-/// curved shape. hits: for each primitive of the shape, 2 * leaf + triangle or kNoHit.
+/// curved shape. emitters: how many of the scene's are sampled. hits: for each primitive of the shape, 2 * leaf +
+/// triangle or kNoHit.
 std::vector<LightRecord> area_light_records(const Scene& scene, const Geometry& geometry, size_t s,
-                                            const LightRadiance& radiance, const std::vector<uint32_t>& hits);
+                                            const LightRadiance& radiance, size_t emitters,
+                                            const std::vector<uint32_t>& hits);
 
 inline double mean_component(const dvec3& c) { return (c.x + c.y + c.z) / 3; }
 

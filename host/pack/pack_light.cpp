@@ -39,6 +39,8 @@ class LightPacker {
   LightPacker(const Scene& scene, const Geometry& geometry, const PackedTextures& textures)
       : scene_(scene), geometry_(geometry), textures_(textures) {
     out_.light_of_shape.assign(scene.shapes.size(), gpu::kNoIndex);
+    for (const Emitter& emitter : scene.emitters)
+      sampled_emitters_ += !std::holds_alternative<DirectionalAreaEmitter>(emitter.kind);
   }
 
   PackedLights pack(const std::vector<uint32_t>& hits) {
@@ -68,7 +70,7 @@ class LightPacker {
     if (range.primitive_count == 0) return;
     const auto first = hits.begin() + static_cast<std::ptrdiff_t>(range.first_primitive);
     out_.light_of_shape[s] = static_cast<uint32_t>(records_.size() * gpu::kLightRows);
-    for (LightRecord& record : area_light_records(scene_, geometry_, s, radiance_of(area.radiance),
+    for (LightRecord& record : area_light_records(scene_, geometry_, s, radiance_of(area.radiance), sampled_emitters_,
                                                   {first, first + static_cast<std::ptrdiff_t>(range.primitive_count)}))
       records_.push_back(std::move(record));
   }
@@ -277,6 +279,7 @@ class LightPacker {
   const Scene& scene_;
   const Geometry& geometry_;
   const PackedTextures& textures_;
+  size_t sampled_emitters_ = 0;
   std::vector<LightRecord> records_;
   std::optional<LightRecord> environment_;
   PackedLights out_;

@@ -38,10 +38,11 @@ Geometry::Geometry(const Scene& scene) : scene_(scene) {
     if (world.mesh) {
       for (const glm::vec3& p : world.mesh->positions)
         world.positions.push_back(transform_point(world.to_world, p));
-      for (const glm::vec3& n : world.mesh->normals) {
-        const dvec3 turned = world.normal_to_world * dvec3(n);
-        world.normals.push_back(glm::dot(turned, turned) > 0 ? glm::normalize(turned) : dvec3(0));
-      }
+      if (!shape.face_normals)
+        for (const glm::vec3& n : world.mesh->normals) {
+          const dvec3 turned = world.normal_to_world * dvec3(n);
+          world.normals.push_back(glm::dot(turned, turned) > 0 ? glm::normalize(turned) : dvec3(0));
+        }
       for (uint32_t i = 0; i < world.mesh->triangles.size(); ++i) {
         const glm::uvec3 v = world.mesh->triangles[i];
         const dvec3 a = world.positions[v.x], b = world.positions[v.y], c = world.positions[v.z];
@@ -150,7 +151,6 @@ SurfacePoint Geometry::surface_point(const Primitive& primitive, const dvec3& wh
 
 SurfacePoint Geometry::triangle_point(const Primitive& primitive, const dvec3& b) const {
   const WorldShape& world = shapes_[static_cast<size_t>(primitive.shape)];
-  const Shape& shape = scene_.shapes[static_cast<size_t>(primitive.shape)];
   const Mesh& mesh = *world.mesh;
   const glm::uvec3 v = mesh.triangles[primitive.triangle];
   const dvec3 p0 = world.positions[v.x], p1 = world.positions[v.y], p2 = world.positions[v.z];
@@ -163,7 +163,7 @@ SurfacePoint Geometry::triangle_point(const Primitive& primitive, const dvec3& b
 
   // Interpolate the normal.
   point.frame.n = point.n_g;
-  if (!world.normals.empty() && !shape.face_normals) {
+  if (!world.normals.empty()) {
     const dvec3 n = b.x * world.normals[v.x] + b.y * world.normals[v.y] + b.z * world.normals[v.z];
     if (glm::dot(n, n) > 0) point.frame.n = glm::normalize(n);
   }

@@ -59,7 +59,7 @@ class Geometry {
   struct WorldShape {
     std::shared_ptr<const Mesh> mesh;  // also of a cube; null for the analytic shapes
     std::vector<dvec3> positions;      // world
-    std::vector<dvec3> normals;        // world, unit before they are interpolated, as Mitsuba's; may be empty
+    std::vector<dvec3> normals;        // world, unit before they are interpolated, as Mitsuba's; empty: faces'
     dmat3 normal_to_world{1};          // inverse transpose of the linear part
     dmat4 to_world{1}, to_object{1};   // analytic: of the unit shape
     double error = 0;

@@ -167,7 +167,8 @@ LightSample sample_light(vec3 p, vec3 n, vec2 u, float u_select, out float selec
     if (kind <= kLightCylinder && point.pdf > 0.0 && d2 > 0.0) {
       s.wi = point.to * inversesqrt(d2);
       s.to_light = point.to;
-      s.radiance = sampled_radiance(row0.xyz, kind, flags, floatBitsToUint(row2.w), row4, row5, s.wi, probability, point);
+      s.radiance =
+          sampled_radiance(row0.xyz, kind, flags, floatBitsToUint(row2.w), row4, row5, s.wi, probability, point);
       s.pdf = point.pdf;
       s.target = hit;
     }

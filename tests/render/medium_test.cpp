@@ -56,20 +56,6 @@ size_t different_pixels(const FilmBuffer& a, const FilmBuffer& b) {
   return different;
 }
 
-struct Mean {
-  glm::dvec3 value{0}, deviation{0};  // of the whole image; standard deviation
-};
-Mean mean_of(const FilmBuffer& film) {
-  Mean mean;
-  const auto pixels = static_cast<size_t>(film.width() * film.height());
-  for (size_t i = 0; i < pixels; ++i) {
-    mean.value += film.mean(i) / static_cast<double>(pixels);
-    mean.deviation += film.variance_of_mean(i) / static_cast<double>(pixels * pixels);
-  }
-  mean.deviation = glm::sqrt(mean.deviation);
-  return mean;
-}
-
 FilmBuffer render(const std::string& elements, uint64_t samples = 16) {
   const DeviceRender result = render_on_device(scene_from_elements(elements), stages(samples));
   EXPECT_EQ(result.statistics.nonfinite, 0u);
@@ -147,10 +133,10 @@ TEST_F(MediumRender, BeerLambertOfPaths) {
   for (double tau : {1e-3, 0.1, 1.0, 6.0, 1e6}) {
     const std::string colours = tau < 1e5 ? "1, 0.5, 0.2" : "1, 1, 1";
     const glm::dvec3 depth = tau * (tau < 1e5 ? glm::dvec3(1, 0.5, 0.2) : glm::dvec3(1));
-    const Mean mean = mean_of(render(integrator("volpath") + sensor_element(32, 32, "0, 0, 400", "0, 0, 0", 0.1) +
+    const ImageMean mean = image_mean(render(integrator("volpath") + sensor_element(32, 32, "0, 0, 400", "0, 0, 0", 0.1) +
                                          kSky + null_cube(medium(colours, "0, 0, 0", tau / 2)), 64));
     for (int c = 0; c < 3; ++c)
-      EXPECT_NEAR(mean.value[c], std::exp(-depth[c]), 5 * mean.deviation[c] + 1e-6) << tau << " " << c;
+      EXPECT_NEAR(mean.value[c], std::exp(-depth[c]), 5 * mean.error[c] + 1e-6) << tau << " " << c;
   }
 }
 
@@ -164,9 +150,9 @@ TEST_F(MediumRender, Furnace) {
   for (const std::string& phase : {std::string(), forward}) {
     const FilmBuffer grey = cube("1, 1, 1", 2, phase);
     for (size_t i = 0; i < 24 * 24; ++i) EXPECT_EQ(grey.mean(i), glm::dvec3(1)) << i;
-    const Mean mean = mean_of(cube("1, 0.4, 0.1", 3, phase));
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean.value[c], 1, 5 * mean.deviation[c] + 1e-6) << c;
-    EXPECT_LT(mean.deviation.x, 0.01);
+    const ImageMean mean = image_mean(cube("1, 0.4, 0.1", 3, phase));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean.value[c], 1, 5 * mean.error[c] + 1e-6) << c;
+    EXPECT_LT(mean.error.x, 0.01);
   }
 }
 
@@ -210,12 +196,12 @@ TEST_F(MediumRender, OrderOfSiblingsDoesNotMatter) {
 TEST_F(MediumRender, SplitByANullPlane) {
   const std::string common = integrator("volpathmis", 32) + sensor_element(24, 24) + kFloor + kPoint;
   const std::string fog = medium("1, 0.6, 0.3", "0.9, 0.8, 0.7", 1.5);
-  const Mean whole = mean_of(render(common + null_cube(fog), 64));
+  const ImageMean whole = image_mean(render(common + null_cube(fog), 64));
   std::string plane = R"(<shape type="rectangle"><bsdf type="null"/>)" + fog + fog;
   plane.replace(plane.rfind("interior"), 8, "exterior");
-  const Mean split = mean_of(render(common + null_cube(fog) + plane + "</shape>", 64));
+  const ImageMean split = image_mean(render(common + null_cube(fog) + plane + "</shape>", 64));
   for (int c = 0; c < 3; ++c)
-    EXPECT_NEAR(whole.value[c], split.value[c], 5 * std::hypot(whole.deviation[c], split.deviation[c])) << c;
+    EXPECT_NEAR(whole.value[c], split.value[c], 5 * std::hypot(whole.error[c], split.error[c])) << c;
 }
 
 }  // namespace

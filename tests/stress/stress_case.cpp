@@ -47,17 +47,6 @@ std::function<double(const FilmBuffer&)> worst_pixel(double expected) {
   };
 }
 
-ImageMean image_mean(const FilmBuffer& film) {
-  ImageMean mean;
-  const double n = static_cast<double>(film.pixels());
-  for (size_t i = 0; i < film.pixels(); ++i) {
-    mean.value += film.mean(i) / n;
-    mean.error += film.variance_of_mean(i) / (n * n);
-  }
-  mean.error = glm::sqrt(mean.error);
-  return mean;
-}
-
 std::function<double(const FilmBuffer&)> mean_beyond_noise(const glm::dvec3& expected) {
   return [expected](const FilmBuffer& film) {
     const ImageMean mean = image_mean(film);

@@ -28,10 +28,4 @@ std::function<double(const FilmBuffer&)> worst_pixel(double expected);
 /// Relative error of the image's mean, beyond five standard errors of it, against the value of each channel.
 std::function<double(const FilmBuffer&)> mean_beyond_noise(const glm::dvec3& expected);
 
-/// Mean of the image's pixels and the standard error of that mean.
-struct ImageMean {
-  glm::dvec3 value{0}, error{0};
-};
-ImageMean image_mean(const FilmBuffer& film);
-
 }  // namespace tachylite::test

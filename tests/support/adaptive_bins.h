@@ -28,8 +28,8 @@ class AdaptiveBins {
   std::vector<double> count(std::span<const glm::vec4> directions) const;
 
   /// Expected counts of `samples` samples; what is left of 1 goes to the last entry. A cell is halved, across its longer
-  /// side, until halving it both ways changes its integral by less than `tolerance`, and while the density at a sample of the pilot is more than twice
-  /// that at any node: a peak lies between them. A rest that quadrature cannot tell from none is 1e-9.
+  /// side, until halving it both ways changes its integral by less than `tolerance`, and while the density at a sample
+  /// of the pilot is more than twice that at any node: a peak lies between them. A rest that quadrature cannot tell from none is 1e-9.
   std::vector<double> expected(const Density& density, double samples, double tolerance = 2e-7) const;
 
  private:

@@ -65,6 +65,17 @@ std::string cornell_elements(int size, int max_depth) {
 )";
 }
 
+ImageMean image_mean(const FilmBuffer& film) {
+  ImageMean mean;
+  const double n = static_cast<double>(film.pixels());
+  for (size_t i = 0; i < film.pixels(); ++i) {
+    mean.value += film.mean(i) / n;
+    mean.error += film.variance_of_mean(i) / (n * n);
+  }
+  mean.error = glm::sqrt(mean.error);
+  return mean;
+}
+
 DeviceRender render_on_device(const Scene& scene, const RenderOptions& options) {
   const PackedScene packed = pack_scene(scene);
   Renderer renderer(device(), packed, options);

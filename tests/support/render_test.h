@@ -32,6 +32,12 @@ struct DeviceRender {
 };
 DeviceRender render_on_device(const Scene& scene, const RenderOptions& options);
 
+/// Mean of the image's pixels and the standard error of that mean.
+struct ImageMean {
+  glm::dvec3 value{0}, error{0};
+};
+ImageMean image_mean(const FilmBuffer& film);
+
 /// Expects that device and CPU reference agree on the scene (image/verify.h): a test of level 1e-4 with the power that
 /// `options` ask for. Nothing may be dropped as not finite or for lack of room.
 void expect_agreement(const Scene& scene, const VerifyOptions& options);

@@ -27,8 +27,8 @@ double specular_probability(const RoughPlasticBsdf& bsdf, const ShadingPoint& po
   return s + d > 0 ? s / (s + d) : 0;
 }
 
-/// Mean of value(m) over the microfacets seen from wo: the midpoint rule over the two numbers that choose them, which go
-/// as s^3 (10 - 15 s + 6 s^2): the steps are short at both ends, where the long tails of GGX lie.
+/// Mean of value(m) over the microfacets seen from wo: the midpoint rule over the two numbers that choose them, which
+/// go as s^3 (10 - 15 s + 6 s^2): the steps are short at both ends, where the long tails of GGX lie.
 template <class Value>
 double mean_over_visible_normals(const Microfacets& microfacets, const dvec3& wo, const Value& value) {
   constexpr int kSteps = 64;
