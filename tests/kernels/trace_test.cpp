@@ -1,6 +1,7 @@
 // The traversal of shaders/geometry/bvh.glsl on the device, against brute force in double on the host.
 
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 
 #include "support/bvh_scenes.h"
@@ -38,6 +39,30 @@ std::vector<Candidate> candidates(const BvhInput& input, const TraceRay& ray, do
     if (t <= ray.t_max) out.push_back({t, 1, static_cast<uint32_t>(input.triangles.size() + j)});
   }
   return out;
+}
+
+/// A point on the surface of a closed mesh, as close to an edge or to a vertex as floats allow.
+std::vector<TraceRay> rays_at_edges(const TestScene& scene, const glm::dvec3& centre, double spread, size_t count,
+                                    uint32_t seed) {
+  Random random(seed);
+  std::vector<TraceRay> rays(count);
+  for (size_t i = 0; i < count; ++i) {
+    const glm::uvec3& t = scene.triangles[static_cast<size_t>(random.uniform() * static_cast<double>(scene.triangles.size()))];
+    const int k = static_cast<int>(random.uniform(0, 3));
+    const glm::dvec3 a(scene.vertices[t[k]]), b(scene.vertices[t[(k + 1) % 3]]);
+    const glm::dvec3 target = i % 3 == 0 ? a : a + random.uniform() * (b - a);
+    rays[i].origin = glm::vec3(centre + random.in_cube(spread));
+    rays[i].direction = glm::vec3(target - glm::dvec3(rays[i].origin));
+    if (i % 2) rays[i].direction = glm::normalize(rays[i].direction);
+    rays[i].t_max = kInfinity;
+  }
+  return rays;
+}
+
+size_t count_misses(const std::vector<TraceHit>& hits) {
+  size_t misses = 0;
+  for (const TraceHit& hit : hits) misses += hit.id == gpu::kNoHit;
+  return misses;
 }
 
 class TraceTest : public DeviceTest {
@@ -92,6 +117,18 @@ class TraceTest : public DeviceTest {
     EXPECT_LT(found, rays.size() + 1);
   }
 
+  /// Of `count` rays from around `centre`, within a closed room, at edges and corners of `aim`: those that hit nothing.
+  size_t leaks(const TestScene& aim, const glm::dvec3& centre, double spread, size_t count, uint32_t seed) {
+    constexpr size_t kBatch = 1000000;
+    size_t leaks = 0;
+    for (; count > 0; ++seed) {
+      const size_t rays = std::min(count, kBatch);
+      leaks += count_misses(trace(rays_at_edges(aim, centre, spread, rays, seed)));
+      count -= rays;
+    }
+    return leaks;
+  }
+
   TestScene scene_;
   Bvh8 bvh_;
   std::unique_ptr<Tracer> tracer_;
@@ -142,28 +179,10 @@ TEST_F(TraceTest, CurvedAmongTriangles) {
   expect_brute_force(random_rays(3000, 1.5, 11), 1e-4, 3e-4, 1);
 }
 
-/// A point on the surface of a closed mesh, as close to an edge or to a vertex as floats allow.
-std::vector<TraceRay> rays_at_edges(const TestScene& scene, const glm::dvec3& centre, double spread, size_t count,
-                                    uint32_t seed) {
-  Random random(seed);
-  std::vector<TraceRay> rays(count);
-  for (size_t i = 0; i < count; ++i) {
-    const glm::uvec3& t = scene.triangles[static_cast<size_t>(random.uniform() * static_cast<double>(scene.triangles.size()))];
-    const int k = static_cast<int>(random.uniform(0, 3));
-    const glm::dvec3 a(scene.vertices[t[k]]), b(scene.vertices[t[(k + 1) % 3]]);
-    const glm::dvec3 target = i % 3 == 0 ? a : a + random.uniform() * (b - a);
-    rays[i].origin = glm::vec3(centre + random.in_cube(spread));
-    rays[i].direction = glm::vec3(target - glm::dvec3(rays[i].origin));
-    if (i % 2) rays[i].direction = glm::normalize(rays[i].direction);
-    rays[i].t_max = kInfinity;
-  }
-  return rays;
-}
-
-size_t count_misses(const std::vector<TraceHit>& hits) {
-  size_t misses = 0;
-  for (const TraceHit& hit : hits) misses += hit.id == gpu::kNoHit;
-  return misses;
+/// TACHYLITE_EDGE_RAYS: so many in each case instead.
+size_t edge_rays(size_t usually) {
+  const char* wanted = std::getenv("TACHYLITE_EDGE_RAYS");
+  return wanted ? std::strtoull(wanted, nullptr, 10) : usually;
 }
 
 TEST_F(TraceTest, ClosedMeshesDoNotLeak) {
@@ -171,7 +190,7 @@ TEST_F(TraceTest, ClosedMeshesDoNotLeak) {
     TestScene scene = bumpy_sphere(40, 80, .1, 12);
     for (glm::vec3& v : scene.vertices) v = glm::vec3(glm::dvec3(v) * scale + offset);
     build(scene);
-    EXPECT_EQ(count_misses(trace(rays_at_edges(scene, glm::dvec3(offset), .3 * scale, 60000, 13))), 0u) << scale;
+    EXPECT_EQ(leaks(scene, glm::dvec3(offset), .3 * scale, edge_rays(60000), 13), 0u) << scale;
   }
 }
 
@@ -179,7 +198,44 @@ TEST_F(TraceTest, ThinClosedMeshesDoNotLeak) {
   TestScene scene = bumpy_sphere(30, 60, .02, 14);
   for (glm::vec3& v : scene.vertices) v.z *= 1e-3f;
   build(scene);
-  EXPECT_EQ(count_misses(trace(rays_at_edges(scene, glm::dvec3(0), 1e-4, 40000, 15))), 0u);
+  EXPECT_EQ(leaks(scene, glm::dvec3(0), 1e-4, edge_rays(40000), 15), 0u);
+}
+
+/// 3 x 3 x 3 boxes face to face but for the one in the middle, or that one alone: 26 make a closed room that no single
+/// mesh closes. Corners lie off a grid of pitch 2, the same for all boxes that touch there.
+TestScene touching_boxes(bool middle, double off, uint32_t seed) {
+  constexpr int kBoxes = 3, kCorners = kBoxes + 1;
+  TestScene scene;
+  Random random(seed);
+  std::vector<glm::vec3> corners;
+  for (int i = 0; i < kCorners * kCorners * kCorners; ++i) {
+    const glm::dvec3 p(i % kCorners, i / kCorners % kCorners, i / kCorners / kCorners);
+    corners.emplace_back(2.0 * p - double(kBoxes) + random.in_cube(off));
+  }
+  for (int box = 0; box < kBoxes * kBoxes * kBoxes; ++box) {
+    const glm::ivec3 at(box % kBoxes, box / kBoxes % kBoxes, box / kBoxes / kBoxes);
+    if ((at == glm::ivec3(kBoxes / 2)) != middle) continue;
+    for (int axis = 0; axis < 3; ++axis)
+      for (int side = 0; side < 2; ++side) {
+        const auto corner = [&](int u, int v) {
+          glm::ivec3 p = at;
+          p[axis] += side;
+          p[(axis + 1) % 3] += u;
+          p[(axis + 2) % 3] += v;
+          return corners[static_cast<size_t>((p.z * kCorners + p.y) * kCorners + p.x)];
+        };
+        scene.add(corner(0, 0), corner(1, 0), corner(1, 1));
+        scene.add(corner(0, 0), corner(1, 1), corner(0, 1));
+      }
+  }
+  return scene;
+}
+
+TEST_F(TraceTest, TouchingBoxesDoNotLeak) {
+  for (const double off : {0.0, 0.2}) {
+    build(touching_boxes(false, off, 24));
+    EXPECT_EQ(leaks(touching_boxes(true, off, 24), glm::dvec3(0), 0.7, edge_rays(60000), 25), 0u) << off;
+  }
 }
 
 /// The unit cube [-1, 1]^3 of quads; n x n quads a side.

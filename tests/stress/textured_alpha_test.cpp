@@ -1,8 +1,10 @@
-// A texture of alpha whose texels lie on both sides of the threshold of smooth (2e-5), under a sky of 1. Stripes of one
-// alpha each; a mirror shows 1 or its reflectance in all of them, glass F + (1 - F) / eta^2.
+// A texture of alpha whose texels lie on both sides of the threshold of smooth (2e-5), in stripes of one alpha each.
+// Under a sky of 1 a mirror shows 1 or its reflectance in all of them, glass F + (1 - F) / eta^2. A sun along the view
+// is seen by those that are rough, and by no others.
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -15,14 +17,16 @@ constexpr std::array kAlphas = {0.0f, 1e-5f, 1.9e-5f, 2.1e-5f, 1e-3f};
 constexpr int kStripe = 4;  // pixels across each
 
 /// A rectangle that fills the view of an orthographic camera, turned by `angle` [rad] about x, which stripes run along.
-Scene stripes(const std::string& bsdf, double angle, FilterType filter) {
+Scene stripes(const std::string& bsdf, double angle, FilterType filter,
+              const std::string& light = R"(<emitter type="constant"/>)") {
   const int size = kStripe * static_cast<int>(kAlphas.size());
   Scene scene = scene_from_elements(fmt::format(R"(<integrator type="path"><integer name="max_depth" value="3"/>
 <integer name="rr_depth" value="100"/></integrator><sensor type="orthographic"><transform name="to_world">
 <lookat origin="0, {}, {}" target="0, 0, 0" up="1, 0, 0"/></transform><film type="hdrfilm">
 <integer name="width" value="{}"/><integer name="height" value="{}"/><rfilter type="box"/></film></sensor>
-<shape type="rectangle"><transform name="to_world"><scale y="4"/></transform>{}</shape><emitter type="constant"/>)",
-                                                std::sin(angle), std::cos(angle), size, size, bsdf));
+<shape type="rectangle"><transform name="to_world"><scale y="4"/></transform>{}</shape>)",
+                                                std::sin(angle), std::cos(angle), size, size, bsdf) + light);
+  if (scene.textures.empty()) return scene;
   auto bitmap = std::make_shared<Bitmap>();
   bitmap->width = static_cast<int>(kAlphas.size());
   bitmap->height = 1;
@@ -54,6 +58,21 @@ std::function<double(const FilmBuffer&)> worst_stripe(double expected) {
   };
 }
 
+/// The largest error of a pixel under a sun of irradiance 1 along normal and view, where f = F D / 4 and
+/// D = 1 / (pi alpha^2), relative to that; 1 where a smooth stripe shows any light.
+std::function<double(const FilmBuffer&)> worst_highlight(double reflectance, const std::vector<float>& alphas) {
+  return [=](const FilmBuffer& film) {
+    double worst = 0;
+    const size_t pixels = film.pixels() / alphas.size();  // up is x, which texels run along
+    for (size_t i = 0; i < film.pixels(); ++i) {
+      const double alpha = static_cast<double>(alphas[alphas.size() - 1 - i / pixels]), value = film.mean(i).x;
+      if (alpha < 2e-5) worst = std::max(worst, value == 0 ? 0.0 : 1.0);
+      else worst = std::max(worst, std::abs(value * 4 * M_PI * alpha * alpha / reflectance - 1));
+    }
+    return worst;
+  };
+}
+
 using TexturedAlpha = DeviceTest;
 
 TEST_F(TexturedAlpha, Conductors) {
@@ -78,6 +97,31 @@ TEST_F(TexturedAlpha, Dielectric) {
 <float name="ext_ior" value="1"/>)"), 0, FilterType::kNearest),
                 {.name = "glass, ggx, texels of alpha 0 to 1e-3", .samples = 256, .bound = 1e-5,
                  .error = worst_stripe(f + (1 - f) / (eta * eta))});
+}
+
+// The threshold itself: to either side of it, an image is 0 or 2e8. The reference knows none; it takes alpha as 1e-4 at
+// least, as Mitsuba does.
+TEST_F(TexturedAlpha, TheThresholdOfSmooth) {
+  const std::string sun = R"(<emitter type="directional"><vector name="direction" x="0" y="0" z="-1"/></emitter>)";
+  const std::string glass = R"(<float name="int_ior" value="1.5"/><float name="ext_ior" value="1"/>)";
+  const std::vector<float> alphas(kAlphas.begin(), kAlphas.end());
+  for (const char* name : {"ggx", "beckmann"}) {
+    const std::string mirror = bsdf("roughconductor", distribution(name) + R"(<string name="material" value="none"/>)");
+    expect_stress(stripes(mirror, 0, FilterType::kNearest, sun),
+                  {.name = fmt::format("sun in a mirror, {}, texels of alpha 0 to 1e-3", name), .samples = 4,
+                   .bound = 1e-5, .error = worst_highlight(1, alphas), .on_reference = false});
+    expect_stress(stripes(bsdf("roughdielectric", distribution(name) + glass), 0, FilterType::kNearest, sun),
+                  {.name = fmt::format("sun in glass, {}, texels of alpha 0 to 1e-3", name), .samples = 4,
+                   .bound = 1e-5, .error = worst_highlight(0.04, alphas), .on_reference = false});
+  }
+  // Without a texture, packing decides.
+  for (const float alpha : {1.9e-5f, 2.1e-5f}) {
+    const std::string mirror = fmt::format(R"(<bsdf type="roughconductor"><float name="alpha" value="{}"/>
+<string name="material" value="none"/></bsdf>)", alpha);
+    expect_stress(stripes(mirror, 0, FilterType::kNearest, sun),
+                  {.name = fmt::format("sun in a mirror of alpha {:.1e}", alpha), .samples = 4, .bound = 1e-5,
+                   .error = worst_highlight(1, {alpha}), .on_reference = false});
+  }
 }
 
 }  // namespace
