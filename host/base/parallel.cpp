@@ -1,6 +1,8 @@
 #include "base/parallel.h"
 
+#include <exception>
 #include <memory>
+#include <vector>
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/global_control.h>
@@ -18,6 +20,19 @@ void parallel_for(size_t begin, size_t end, size_t grain, const std::function<vo
   tbb::parallel_for(
       tbb::blocked_range<size_t>(begin, end, grain),
       [&](const tbb::blocked_range<size_t>& r) { body(r.begin(), r.end()); }, tbb::simple_partitioner());
+}
+
+void parallel_for_each(size_t count, const std::function<void(size_t)>& body) {
+  std::vector<std::exception_ptr> failures(count);
+  parallel_for(0, count, 1, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) try {
+        body(i);
+      } catch (...) {
+        failures[i] = std::current_exception();
+      }
+  });
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
 }
 
 void parallel_invoke(const std::function<void()>& a, const std::function<void()>& b) { tbb::parallel_invoke(a, b); }

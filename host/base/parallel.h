@@ -10,6 +10,9 @@ namespace tachylite {
 /// belongs to its own items. The first exception is rethrown after all subranges have ended.
 void parallel_for(size_t begin, size_t end, size_t grain, const std::function<void(size_t, size_t)>& body);
 
+/// Calls body(i) for each i below `count`, likewise; the exception that is rethrown is that of the least i.
+void parallel_for_each(size_t count, const std::function<void(size_t)>& body);
+
 /// Runs both, perhaps at the same time; returns after both have ended.
 void parallel_invoke(const std::function<void()>& a, const std::function<void()>& b);
 

@@ -6,6 +6,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/read_file.h"
 
 namespace tachylite {
@@ -36,24 +37,40 @@ void compute_normals(Mesh& mesh, const std::optional<dmat3>& to_world) {
     if (!any) return;
   }
 
-  // Sum in double: a vertex may have many triangles of very different size around it.
+  // Sum in double: a vertex may have many triangles of very different size around it. Their normals are found by all
+  // threads, and added in the order of the triangles by one.
+  struct Corners {
+    dvec3 normals[3];
+  };
+  constexpr size_t kAtOnce = size_t{1} << 16, kGrain = 2048;
+  std::vector<Corners> corners(std::min(kAtOnce, mesh.triangles.size()));
   const dmat3 linear = to_world.value_or(dmat3(1));
   std::vector<dvec3> sums(mesh.positions.size(), dvec3(0));
-  for (const glm::uvec3& triangle : mesh.triangles) {
-    dvec3 p[3], edge[3];
-    for (int i = 0; i < 3; ++i) p[i] = linear * dvec3(mesh.positions[triangle[i]]);
-    for (int i = 0; i < 3; ++i) edge[i] = normalize_or_zero(p[(i + 1) % 3] - p[i]);
-    const dvec3 normal = normalize_or_zero(glm::cross(p[1] - p[0], p[2] - p[0]));
-    for (int i = 0; i < 3; ++i) sums[triangle[i]] += normal * unit_angle(edge[i], -edge[(i + 2) % 3]);
+  for (size_t begin = 0; begin < mesh.triangles.size(); begin += kAtOnce) {
+    const size_t count = std::min(kAtOnce, mesh.triangles.size() - begin);
+    parallel_for(0, count, kGrain, [&](size_t first, size_t last) {
+      for (size_t t = first; t < last; ++t) {
+        const glm::uvec3& triangle = mesh.triangles[begin + t];
+        dvec3 p[3], edge[3];
+        for (int i = 0; i < 3; ++i) p[i] = linear * dvec3(mesh.positions[triangle[i]]);
+        for (int i = 0; i < 3; ++i) edge[i] = normalize_or_zero(p[(i + 1) % 3] - p[i]);
+        const dvec3 normal = normalize_or_zero(glm::cross(p[1] - p[0], p[2] - p[0]));
+        for (int i = 0; i < 3; ++i) corners[t].normals[i] = normal * unit_angle(edge[i], -edge[(i + 2) % 3]);
+      }
+    });
+    for (size_t t = 0; t < count; ++t)
+      for (int i = 0; i < 3; ++i) sums[mesh.triangles[begin + t][i]] += corners[t].normals[i];
   }
   // Normals go to the world by the inverse transpose; take those found there back.
   const dmat3 back = glm::transpose(linear);
-  for (size_t i = 0; i < sums.size(); ++i) {
-    if (!is_missing(i)) continue;
-    const dvec3 normal = normalize_or_zero(back * sums[i]);
-    // A vertex with degenerate triangles only, or none, is never shaded; any unit vector will do.
-    mesh.normals[i] = normal == dvec3(0) ? glm::vec3(1, 0, 0) : glm::vec3(normal);
-  }
+  parallel_for(0, sums.size(), kGrain, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      if (!is_missing(i)) continue;
+      const dvec3 normal = normalize_or_zero(back * sums[i]);
+      // A vertex with degenerate triangles only, or none, is never shaded; any unit vector will do.
+      mesh.normals[i] = normal == dvec3(0) ? glm::vec3(1, 0, 0) : glm::vec3(normal);
+    }
+  });
 }
 
 std::shared_ptr<const Mesh> load_mesh(const MeshRequest& request) {

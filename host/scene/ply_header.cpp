@@ -72,16 +72,6 @@ uint64_t fewest_bytes(const PlyElement& element, PlyHeader::Format format) {
 
 }  // namespace
 
-size_t byte_size(PlyType type) {
-  constexpr size_t kSizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
-  return kSizes[static_cast<size_t>(type)];
-}
-
-double largest_integer(PlyType type) {
-  constexpr double kLargest[] = {127, 255, 32767, 65535, 2147483647, 4294967295, 0, 0};
-  return kLargest[static_cast<size_t>(type)];
-}
-
 int PlyElement::find(std::string_view property) const {
   for (size_t i = 0; i < properties.size(); ++i)
     if (properties[i].name == property) return static_cast<int>(i);

@@ -9,9 +9,15 @@
 namespace tachylite {
 
 enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
-size_t byte_size(PlyType type);
+constexpr size_t byte_size(PlyType type) {
+  constexpr size_t kSizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
+  return kSizes[static_cast<size_t>(type)];
+}
 /// Largest value of an integer type, 0 for floating point types.
-double largest_integer(PlyType type);
+constexpr double largest_integer(PlyType type) {
+  constexpr double kLargest[] = {127, 255, 32767, 65535, 2147483647, 4294967295, 0, 0};
+  return kLargest[static_cast<size_t>(type)];
+}
 
 struct PlyProperty {
   std::string name;

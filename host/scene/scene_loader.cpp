@@ -253,20 +253,14 @@ MediumIndex SceneLoader::medium(const XmlNode& node) {
 }
 
 void SceneLoader::defer(std::function<void()> load, std::function<void()> finish) {
-  jobs_.push_back({std::move(load), std::move(finish), nullptr});
+  jobs_.push_back({std::move(load), std::move(finish)});
 }
 
 void SceneLoader::run_jobs() {
-  parallel_for(0, jobs_.size(), 1, [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) try {
-        if (jobs_[i].load) jobs_[i].load();
-      } catch (...) {
-        jobs_[i].failure = std::current_exception();
-      }
-  });
   // The complaint is that of the first file in the scene, whichever thread was faster.
-  for (const Job& job : jobs_)
-    if (job.failure) std::rethrow_exception(job.failure);
+  parallel_for_each(jobs_.size(), [&](size_t i) {
+    if (jobs_[i].load) jobs_[i].load();
+  });
   for (const Job& job : jobs_)
     if (job.finish) job.finish();
   jobs_.clear();

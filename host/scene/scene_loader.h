@@ -2,7 +2,6 @@
 
 // Internals of load_xml: what the readers of single kinds of objects share.
 
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -77,7 +76,6 @@ class SceneLoader {
  private:
   struct Job {
     std::function<void()> load, finish;
-    std::exception_ptr failure;
   };
 
   void note_ids(const XmlNode& node);

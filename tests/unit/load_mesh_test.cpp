@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -146,6 +147,175 @@ TEST_F(LoadMesh, PlyBinaryOfBothByteOrders) {
     expect_square(read_ply(write("mesh.ply", text), false, false));
     EXPECT_THROW(read_ply(write("mesh.ply", text.substr(0, text.size() - 1)), false, false), InputError);
   }
+}
+
+// Files of many parts, which are read at the same time: strips of quads above each other, a row of vertices, then the
+// row's faces.
+class LoadLargeMesh : public LoadMesh {
+ protected:
+  static constexpr int kRows = 250, kColumns = 200;  // of vertices
+
+  static Mesh expected() {
+    Mesh mesh;
+    for (int i = 0; i < kRows; ++i)
+      for (int j = 0; j < kColumns; ++j) mesh.positions.emplace_back(j, i, 0.25f * static_cast<float>((i * j) % 7));
+    for (uint32_t i = 0; i + 1 < kRows; ++i)
+      for (uint32_t j = 0; j + 1 < kColumns; ++j) {
+        const uint32_t a = i * kColumns + j, b = a + 1, c = b + kColumns, d = a + kColumns;
+        mesh.triangles.emplace_back(a, b, c);
+        if (is_quad(i, j)) mesh.triangles.emplace_back(a, c, d);
+      }
+    return mesh;
+  }
+  static bool is_quad(uint32_t i, uint32_t j) { return (i + j) % 3 != 0; }
+  static uint64_t faces() { return uint64_t{kRows - 1} * (kColumns - 1); }
+
+  static std::string face(uint32_t i, uint32_t j, const char* triangle, const char* quad) {
+    const uint32_t a = i * kColumns + j;
+    return fmt::format(fmt::runtime(is_quad(i, j) ? quad : triangle), a, a + 1, a + 1 + kColumns, a + kColumns);
+  }
+  static std::string header(const char* format) {
+    return fmt::format("ply\nformat {} 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
+                       "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+                       format, kRows * kColumns, faces());
+  }
+  /// `between` stands between the words of a row, `after` ends every row.
+  static std::string ascii(const char* between, const char* after) {
+    std::string text = header("ascii");
+    for (const glm::vec3& p : expected().positions)
+      text += fmt::format("{1}{0}{2}{0}{3}{4}", between, p.x, p.y, p.z, after);
+    for (uint32_t i = 0; i + 1 < kRows; ++i)
+      for (uint32_t j = 0; j + 1 < kColumns; ++j) text += face(i, j, "3 {0} {1} {2}", "4 {} {} {} {}") + after;
+    return text;
+  }
+  static std::string binary() {
+    std::string bytes = header("binary_little_endian");
+    const auto add = [&](const auto& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); };
+    for (const glm::vec3& p : expected().positions) add(p);
+    for (uint32_t i = 0; i + 1 < kRows; ++i)
+      for (uint32_t j = 0; j + 1 < kColumns; ++j) {
+        const uint32_t a = i * kColumns + j;
+        add(static_cast<uint8_t>(is_quad(i, j) ? 4 : 3));
+        add(glm::uvec3(a, a + 1, a + 1 + kColumns));
+        if (is_quad(i, j)) add(a + kColumns);
+      }
+    return bytes;
+  }
+  static std::string obj_text() {
+    std::string text = "# strips\n";
+    for (uint32_t i = 0; i < kRows; ++i) {
+      for (int j = 0; j < kColumns; ++j) {
+        const glm::vec3 p = expected_position(i, j);
+        text += fmt::format("v {} \\\n {} {}\r\n", p.x, p.y, p.z);  // lines may be continued
+      }
+      for (uint32_t j = 0; i > 0 && j + 1 < kColumns; ++j) {
+        // Counted from the last vertex, or from the first.
+        const int a = static_cast<int>(j) - 2 * kColumns, d = static_cast<int>(j) - kColumns;
+        if (j % 2 == 0)
+          text += fmt::format("f {} {} {}", a, a + 1, d + 1) + (is_quad(i - 1, j) ? fmt::format(" {}\n", d) : "\n");
+        else
+          text += obj_face(i - 1, j);
+      }
+    }
+    return text;
+  }
+  static glm::vec3 expected_position(uint32_t i, int j) {
+    static const Mesh mesh = expected();
+    return mesh.positions[i * kColumns + static_cast<uint32_t>(j)];
+  }
+  static std::string obj_face(uint32_t i, uint32_t j) {
+    const uint32_t a = i * kColumns + j + 1;
+    return fmt::format("f {} {} {}", a, a + 1, a + 1 + kColumns) +
+           (is_quad(i, j) ? fmt::format(" {}\n", a + kColumns) : "\n");
+  }
+
+  void expect_mesh(const Mesh& mesh) const {
+    EXPECT_TRUE(mesh.positions == expected().positions);
+    EXPECT_TRUE(mesh.triangles == expected().triangles);
+  }
+  Mesh ply(const std::string& bytes) const { return read_ply(write("mesh.ply", bytes), false, false); }
+  template <typename Read>
+  static std::string complaint_of(const Read& read) {
+    try {
+      read();
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      return message.substr(message.rfind('/') + 1);
+    }
+    return "";
+  }
+  static size_t line_of(const std::string& text, size_t at) {
+    return 1 + static_cast<size_t>(std::count(text.begin(), text.begin() + static_cast<ptrdiff_t>(at), '\n'));
+  }
+};
+
+TEST_F(LoadLargeMesh, ObjInParts) {
+  const std::string text = obj_text();
+  ASSERT_GT(text.size(), size_t{1} << 20);  // several parts
+  const Mesh mesh = obj(text);
+  ASSERT_EQ(mesh.positions.size(), expected().positions.size());
+  ASSERT_EQ(mesh.triangles.size(), expected().triangles.size());
+  // Vertices are numbered as faces name them: compare corners.
+  const Mesh wanted = expected();
+  size_t different = 0;
+  for (size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      different += mesh.positions[mesh.triangles[t][k]] != wanted.positions[wanted.triangles[t][k]];
+  EXPECT_EQ(different, 0);
+  uint32_t next = 0;
+  for (const glm::uvec3& triangle : mesh.triangles)
+    for (int k = 0; k < 3; ++k) {
+      ASSERT_LE(triangle[k], next);
+      if (triangle[k] == next) ++next;
+    }
+}
+
+TEST_F(LoadLargeMesh, ObjComplaintIsTheFirst) {
+  for (const double place : {0.2, 0.5, 0.9}) {
+    std::string text = obj_text();
+    const auto at = [&](double share) {
+      return text.find("\nf ", static_cast<size_t>(share * static_cast<double>(text.size()))) + 1;
+    };
+    text.insert(at(0.95), "f 1 2 x\nv 1\nunknown\n");
+    const size_t wrong = at(place);
+    const auto given = std::count(text.begin(), text.begin() + static_cast<ptrdiff_t>(wrong), 'v');
+    text.insert(wrong, "f 1 2 1000000\n");
+    EXPECT_EQ(complaint_of([&] { obj(text); }),
+              fmt::format("mesh.obj:{}: face refers to vertex 1000000, but {} are given before it",
+                          line_of(text, wrong), given));
+  }
+}
+
+TEST_F(LoadLargeMesh, PlyInParts) {
+  ASSERT_GT(ascii(" ", "\n").size(), size_t{1} << 20);
+  expect_mesh(ply(ascii(" ", "\n")));
+  expect_mesh(ply(ascii(" ", "\n\n")));
+  expect_mesh(ply(ascii("\n", "\n")));  // rows are not lines
+  expect_mesh(ply(ascii(" ", " ")));
+  expect_mesh(ply(binary()));
+}
+
+TEST_F(LoadLargeMesh, PlyComplaintIsTheFirst) {
+  for (const char* after : {"\n", "\n\n"}) {
+    std::string text = ascii(" ", after);
+    for (const double place : {0.95, 0.8, 0.5}) {  // the last row to be spoiled is the first
+      const size_t wrong = text.find("\n3 ", static_cast<size_t>(place * static_cast<double>(text.size()))) + 1;
+      text.replace(wrong, 2, "3 -");
+      const std::string words = complaint_of([&] { ply(text); });
+      EXPECT_TRUE(words.starts_with(fmt::format("mesh.ply:{}: face ", line_of(text, wrong)))) << words;
+    }
+  }
+  std::string bytes = binary();
+  constexpr uint32_t kTooLarge = 1u << 30;
+  const auto spoil = [&](size_t from_end) { std::memcpy(&bytes[bytes.size() - from_end], &kTooLarge, 4); };
+  spoil(4);
+  EXPECT_EQ(complaint_of([&] { ply(bytes); }),
+            fmt::format("mesh.ply: face {} refers to vertex {}, but there are {}", faces() - 1, kTooLarge,
+                        kRows * kColumns));
+  bytes.resize(bytes.size() - 1);
+  EXPECT_EQ(complaint_of([&] { ply(bytes); }), "mesh.ply: the file is cut short");
+  spoil(40 * (kColumns - 1) * 13);  // an index or a length; all else is wrong from there
+  EXPECT_TRUE(complaint_of([&] { ply(bytes); }).starts_with("mesh.ply: face "));
 }
 
 TEST_F(LoadMesh, NormalsAreWeightedByAngle) {
