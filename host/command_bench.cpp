@@ -20,6 +20,7 @@
 #include "measure/external.h"
 #include "measure/report_html.h"
 #include "measure/report_json.h"
+#include "measure/report_plots.h"
 #include "measure/report_text.h"
 #include "measure/scaling.h"
 #include "measure/scene_renders.h"
@@ -29,8 +30,8 @@ namespace {
 
 void check_report_outputs(const BenchArguments& arguments) {
   for (const std::filesystem::path& file : arguments.outputs) {
-    if (file.extension() != ".json" && file.extension() != ".html")
-      throw InputError(fmt::format("-o {}: expected a name that ends in .json or .html", file.string()));
+    if (file.extension() != ".json" && file.extension() != ".html" && file.extension() != ".svg")
+      throw InputError(fmt::format("-o {}: expected a name that ends in .json, .html or .svg", file.string()));
     check_writable(file);
   }
 }
@@ -161,7 +162,9 @@ int run_bench(const BenchArguments& arguments) {
 
   if (baseline) report.against = compare_reports(report, *baseline);
   for (const std::filesystem::path& file : arguments.outputs)
-    write_text(file, file.extension() == ".json" ? report_json(report) : report_html(report));
+    write_text(file, file.extension() == ".json"  ? report_json(report)
+                     : file.extension() == ".svg" ? report_svg(report)
+                                                  : report_html(report));
   const std::string text = arguments.json ? report_json(report) : describe(report);
   std::fputs(text.c_str(), stdout);
   return 0;

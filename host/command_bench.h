@@ -21,7 +21,7 @@ struct BenchArguments {
   std::filesystem::path against;    // empty: none
   std::vector<std::string> externals;
   std::vector<std::string> scaling;  // names of series
-  double scaling_seconds = 20;       // a point that takes longer is a series' last
+  double scaling_seconds = 20;       // a point that takes longer by the clock is a series' last
   std::string device;
   SamplerKind sampler = SamplerKind::kSobol;
   uint32_t max_paths = RenderOptions{}.max_paths;

@@ -136,7 +136,7 @@ void add_bench_options(CLI::App& command, BenchArguments& arguments, int& thread
       ->type_name("name=value")
       ->allow_extra_args(false);
   command.add_flag("--permissive", arguments.scene.permissive, "unknown plugins and parameters are warnings only");
-  command.add_option("-o,--output", arguments.outputs, "report, .json or .html; may be given several times")
+  command.add_option("-o,--output", arguments.outputs, "report, .json or .html, or its plots, .svg; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
   command.add_option("--spp", arguments.measure.most_samples, "most samples a pixel")->type_name("N")->check(samples);
@@ -160,7 +160,9 @@ void add_bench_options(CLI::App& command, BenchArguments& arguments, int& thread
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::IsMember(scaling_names()).description(""));
-  command.add_option("--scaling-seconds", arguments.scaling_seconds, "a point that takes longer is its series' last")
+  command
+      .add_option("--scaling-seconds", arguments.scaling_seconds,
+                  "a point that takes longer, by --clock, is its series' last")
       ->type_name("SECONDS")
       ->check(within(1e-3, 1e9));
   command.add_option("--clock", arguments.clock, "cpu (seconds over cores) or wall; auto: cpu where the device is one")

@@ -15,4 +15,8 @@ uint64_t available_memory();
 /// and available bytes where `bytes` are not available; `what` needs them: "the film of 4 x 3 pixels".
 void require_memory(const FileLocation& where, const std::string& what, uint64_t bytes);
 
+/// The most memory that this process has held at once since forget_peak_memory [bytes]; 0 where Linux does not tell.
+uint64_t peak_memory();
+void forget_peak_memory();
+
 }  // namespace tachylite

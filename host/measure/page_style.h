@@ -2,13 +2,27 @@
 
 namespace tachylite {
 
-/// The style sheet and the script of the report's page.
-inline constexpr const char* kPageStyle = R"(
+/// The style sheets of plots and of the rest of the report's page, and its script.
+inline constexpr const char* kPlotStyle = R"(
 :root { --paper: #fbfaf7; --card: #fff; --ink: #23241f; --soft: #6d6f66; --line: #e3e1d9; --accent: #b4441a;
   --c0: #b4441a; --c1: #2b6a99; --c2: #4b7f3b; --c3: #80539a; --c4: #a8821b; --c5: #2d8079; --c6: #8f8f88; }
 @media (prefers-color-scheme: dark) { :root { --paper: #191a18; --card: #22231f; --ink: #ecebe4; --soft: #a5a69c;
   --line: #393a34; --accent: #f08a5a; --c0: #f08a5a; --c1: #7cb8e3; --c2: #97cf82; --c3: #c59be0; --c4: #e0bd5c;
   --c5: #72c9c1; --c6: #9a9a92; } }
+svg .grid { stroke: var(--line); }
+svg .tick, svg .label { fill: var(--soft); font-size: 12px; }
+svg .key { fill: var(--ink); font-size: 12.5px; }
+.series path { fill: none; stroke: var(--c); stroke-width: 2; stroke-linejoin: round; }
+.series circle { fill: var(--card); stroke: var(--c); stroke-width: 2; }
+.series .bar { stroke: var(--c); stroke-width: 1.4; }
+.guide path { stroke-width: 1.2; stroke-dasharray: 4 4; }
+.s0 { --c: var(--c0); } .s1 { --c: var(--c1); } .s2 { --c: var(--c2); } .s3 { --c: var(--c3); }
+.s4 { --c: var(--c4); } .s5 { --c: var(--c5); } .s6 { --c: var(--c6); }
+text { font-family: system-ui, "Helvetica Neue", Arial, sans-serif; font-variant-numeric: tabular-nums; }
+svg .title { fill: var(--ink); font-size: 15px; font-weight: 650; }
+)";
+
+inline constexpr const char* kPageStyle = R"(
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--paper); color: var(--ink);
   font: 15px/1.5 system-ui, "Helvetica Neue", Arial, sans-serif; font-variant-numeric: tabular-nums; }
@@ -31,15 +45,6 @@ th:first-child, td:first-child { text-align: left; padding-left: 0; }
 td small { display: block; color: var(--soft); font-size: 11.5px; font-weight: 400; line-height: 1.25; }
 td.good { color: var(--accent); font-weight: 650; }
 svg.plot { width: 100%; height: auto; display: block; }
-svg .grid { stroke: var(--line); }
-svg .tick, svg .label { fill: var(--soft); font-size: 12px; }
-svg .key { fill: var(--ink); font-size: 12.5px; }
-.series path { fill: none; stroke: var(--c); stroke-width: 2; stroke-linejoin: round; }
-.series circle { fill: var(--card); stroke: var(--c); stroke-width: 2; }
-.series .bar { stroke: var(--c); stroke-width: 1.4; }
-.guide path { stroke-width: 1.2; stroke-dasharray: 4 4; }
-.s0 { --c: var(--c0); } .s1 { --c: var(--c1); } .s2 { --c: var(--c2); } .s3 { --c: var(--c3); }
-.s4 { --c: var(--c4); } .s5 { --c: var(--c5); } .s6 { --c: var(--c6); }
 .compare { position: relative; line-height: 0; border-radius: 6px; overflow: hidden; touch-action: none; cursor: ew-resize;
   background: #000; }
 .compare img { width: 100%; image-rendering: pixelated; user-select: none; }

@@ -9,12 +9,10 @@
 #include "measure/color_map.h"
 #include "measure/contest.h"
 #include "measure/page_style.h"
-#include "measure/svg_plot.h"
+#include "measure/report_plots.h"
 
 namespace tachylite {
 namespace {
-
-constexpr int kStyles = 6, kGuideStyle = 6;
 
 std::string base64(const std::vector<uint8_t>& bytes) {
   static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -40,29 +38,6 @@ std::string interval(const TargetTime& t) {
 
 std::string card(const std::string& title, const std::string& body, bool wide = false) {
   return fmt::format("<div class=\"card{}\"><h3>{}</h3>{}</div>\n", wide ? " wide" : "", escape_html(title), body);
-}
-
-std::string error_plot(const SceneMeasurement& scene, const std::string& clock) {
-  Plot plot;
-  plot.x_label = fmt::format("seconds of rendering ({} clock)", clock);
-  plot.y_label = "relMSE";
-  for (size_t i = 0; i < scene.renderers.size(); ++i) {
-    PlotSeries series{scene.renderers[i].name, {}, static_cast<int>(i) % kStyles, false};
-    for (const LevelMeasurement& l : scene.renderers[i].levels)
-      series.points.push_back({l.seconds.value, l.rel_mse.value, l.rel_mse.low, l.rel_mse.high,
-                               fmt::format("{}: {} samples, {:.3g} s, relMSE {:.3g}", scene.renderers[i].name, l.samples,
-                                           l.seconds.value, l.rel_mse.value)});
-    plot.series.push_back(series);
-  }
-  // What independent samples would do from Tachylite's first level on.
-  const std::vector<LevelMeasurement>& levels = scene.renderers[0].levels;
-  const LevelMeasurement &first = levels.front(), &last = levels.back();
-  const double end = first.rel_mse.value * first.seconds.value / last.seconds.value;
-  plot.series.push_back({"1 / seconds",
-                         {{first.seconds.value, first.rel_mse.value, 0, 0, ""}, {last.seconds.value, end, 0, 0, ""}},
-                         kGuideStyle,
-                         true});
-  return svg_plot(plot);
 }
 
 std::string level_table(const SceneMeasurement& scene) {
@@ -146,7 +121,7 @@ std::string pictures(const SceneMeasurement& scene) {
 std::string scene_section(const SceneMeasurement& s, const Report& report) {
   std::string html = fmt::format("<section><h2>{}</h2><p class=\"sub\">{} × {} pixels · {} seeds · errors from {}</p>\n",
                                  escape_html(s.name), s.width, s.height, s.seeds, escape_html(s.error_from));
-  std::string left = card("Error against time", error_plot(s, report.clock));
+  std::string left = card("Error against time", svg_plot(error_plot(s, report.clock)));
   left += card("Seconds to an error", time_table(s));
   for (size_t i = 1; i < s.renderers.size(); ++i)
     left += card(s.renderers[0].name + " over " + s.renderers[i].name,
@@ -159,36 +134,10 @@ std::string scene_section(const SceneMeasurement& s, const Report& report) {
   return html + "</div></section>\n";
 }
 
-/// What a column's unit measures.
-std::string quantity_of(const std::string& unit) {
-  return unit == "s" ? "seconds" : unit == "MiB" ? "memory [MiB]" : "relMSE";
-}
-
 std::string scaling_section(const ScalingSeries& s) {
-  // One plot a unit: seconds, bytes, ...
-  std::vector<std::string> units;
-  const auto unit_of = [](const std::string& column) {
-    const size_t bracket = column.find('[');
-    return bracket == std::string::npos ? std::string() : column.substr(bracket + 1, column.find(']') - bracket - 1);
-  };
-  for (const std::string& column : s.columns)
-    if (std::find(units.begin(), units.end(), unit_of(column)) == units.end()) units.push_back(unit_of(column));
   std::string html = fmt::format("<section><h2>{}</h2><p class=\"sub\">{}</p><div class=\"cards\">", escape_html(s.name),
                                  escape_html(s.note));
-  for (const std::string& unit : units) {
-    Plot plot;
-    plot.x_label = s.x_label;
-    plot.y_label = quantity_of(unit);
-    for (const std::string& column : s.columns) {
-      if (unit_of(column) != unit) continue;
-      PlotSeries series{column.substr(0, column.find(" [")), {}, static_cast<int>(plot.series.size()) % kStyles, false};
-      for (const ScalingPoint& p : s.points)
-        if (const auto value = p.values.find(column); value != p.values.end())
-          series.points.push_back({p.x, value->second, 0, 0, fmt::format("{:g}: {:.4g} {}", p.x, value->second, unit)});
-      plot.series.push_back(series);
-    }
-    html += card(plot.y_label, svg_plot(plot));
-  }
+  for (const Plot& plot : scaling_plots(s)) html += card(plot.y_label, svg_plot(plot));
   std::string head = fmt::format("<th>{}</th>", escape_html(s.x_label)), rows;
   for (const std::string& column : s.columns) head += fmt::format("<th>{}</th>", escape_html(column));
   for (const ScalingPoint& p : s.points) {
@@ -206,12 +155,13 @@ std::string scaling_section(const ScalingSeries& s) {
 }  // namespace
 
 std::string report_html(const Report& report) {
+  const std::string title = report.scenes.empty() ? "Cost as work grows" : "Error against time";
   std::string html = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
                      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
-                     "<title>Tachylite: error against time</title><style>" + std::string(kPageStyle) +
+                     "<title>Tachylite: " + title + "</title><style>" + std::string(kPlotStyle) + kPageStyle +
                      "</style></head><body><main>\n";
-  html += fmt::format("<h1>Error against time</h1><p class=\"sub\">Tachylite {} on {}, {}</p>\n",
-                      escape_html(report.version), escape_html(report.device), escape_html(report.driver));
+  html += fmt::format("<h1>{}</h1><p class=\"sub\">Tachylite {} on {}, {}</p>\n", title, escape_html(report.version),
+                      escape_html(report.device), escape_html(report.driver));
   for (const SceneMeasurement& s : report.scenes) html += scene_section(s, report);
   for (const Contest& c : report.against)
     html += fmt::format("<section><h2>{}: {} over {}</h2>", escape_html(c.scene), c.of, c.to) +

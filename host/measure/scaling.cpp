@@ -8,6 +8,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/scratch_folder.h"
 #include "base/timer.h"
 #include "measure/image_error.h"
@@ -43,11 +44,13 @@ struct Bench {
 };
 
 constexpr const char *kRead = "reading [s]", *kTree = "tree [s]", *kPack = "packing [s]", *kKernels = "kernels [s]",
-                     *kRender = "16 samples [s]", *kDevice = "device memory [MiB]", *kError = "relMSE of 16 samples [1]",
+                     *kRender = "16 samples [s]", *kDevice = "device memory [MiB]",
+                     *kPeak = "peak memory of the process [MiB]", *kError = "relMSE of 16 samples [1]",
                      *kReadPly = "reading PLY [s]", *kReadObj = "reading OBJ [s]";
 
 ScalingPoint Bench::measure(double x, const std::filesystem::path& file) const {
   ScalingPoint point{x, {}};
+  forget_peak_memory();
   const StageTimer load_timer(cores);
   const Scene scene = load_scene(file);
   point.values[kRead] = load_timer.seconds();
@@ -71,6 +74,7 @@ ScalingPoint Bench::measure(double x, const std::filesystem::path& file) const {
     point.values[kRender] = render_timer.seconds();
     point.values[kDevice] = static_cast<double>(renderer.statistics().device_bytes) / kMebibyte;
   }
+  if (const uint64_t peak = peak_memory(); peak > 0) point.values[kPeak] = static_cast<double>(peak) / kMebibyte;
   double rel_mse = 0;
   const std::vector<std::vector<double>> errors = deviations(images, ErrorScale(mean_of(images)));
   for (double block : errors[0]) rel_mse += block;  // both have the same
@@ -105,20 +109,21 @@ std::vector<double> powers(double first, double last, double step) {
 const std::map<std::string, Plan>& plans() {
   static const std::map<std::string, Plan> all = {
       {"triangles",
-       {"Time and memory against triangles", "triangles", {kReadPly, kReadObj, kTree, kPack, kKernels, kRender, kDevice},
+       {"Time and memory against triangles", "triangles",
+        {kReadPly, kReadObj, kTree, kPack, kKernels, kRender, kDevice, kPeak},
         powers(100, 1e7, std::sqrt(10)), [](const Bench& b, double x) { return b.triangles(x); }}},
       {"lights",
        {"Time, memory and error against lights", "emissive triangles",
-        {kRead, kTree, kPack, kKernels, kRender, kDevice, kError}, powers(1, 1e6, 10),
+        {kRead, kTree, kPack, kKernels, kRender, kDevice, kPeak, kError}, powers(1, 1e6, 10),
         [](const Bench& b, double x) { return b.measure(x, write_lights_scene(b.folder, static_cast<uint64_t>(x))); }}},
       {"depth",
        {"Time and error against depth", "segments of a path", {kRender, kError}, powers(1, 64, 2),
         [](const Bench& b, double x) { return b.measure(x, write_room_scene(b.folder, static_cast<int>(x), 256)); }}},
       {"resolution",
-       {"Time and memory against resolution", "pixels a side", {kKernels, kRender, kDevice}, powers(64, 2048, 2),
+       {"Time and memory against resolution", "pixels a side", {kKernels, kRender, kDevice, kPeak}, powers(64, 2048, 2),
         [](const Bench& b, double x) { return b.measure(x, write_room_scene(b.folder, 6, static_cast<int>(x))); }}},
       {"materials",
-       {"Time against materials", "classes of material", {kKernels, kRender, kDevice},
+       {"Time against materials", "classes of material", {kKernels, kRender, kDevice, kPeak},
         powers(1, most_material_classes(), 2),
         [](const Bench& b, double x) { return b.measure(x, write_materials_scene(b.folder, static_cast<int>(x))); }}}};
   return all;
@@ -138,7 +143,7 @@ ScalingSeries measure_scaling(const std::string& name, vulkan::Device& device, d
   const Bench bench{device, cores, scratch.path()};
   ScalingSeries series{plan->second.title, plan->second.x_label, plan->second.columns, {}, ""};
   for (double x : plan->second.xs) {
-    const Timer timer;
+    const StageTimer timer(cores);
     series.points.push_back(plan->second.measure(bench, x));
     if (timer.seconds() <= most_seconds || x == plan->second.xs.back()) continue;
     series.note = fmt::format("ended at {:g}, which took more than {:g} s", x, most_seconds);

@@ -12,7 +12,7 @@ namespace tachylite {
 const std::vector<std::string>& scaling_names();
 
 /// Time and memory as one thing grows, in scenes made for it (scaling_scenes.h); each stage by itself. A series ends
-/// after the first point that takes more than `most_seconds`, and says so. cores: seconds are CPU seconds / cores; 0:
+/// after the first point that takes more than `most_seconds`, and says so. cores: all seconds are CPU seconds / cores; 0:
 /// wall-clock seconds.
 ScalingSeries measure_scaling(const std::string& name, vulkan::Device& device, double most_seconds, int cores);
 

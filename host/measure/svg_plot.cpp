@@ -9,7 +9,7 @@
 namespace tachylite {
 namespace {
 
-constexpr double kLeft = 64, kRight = 20, kTop = 34, kBottom = 48;
+constexpr double kLeft = 64, kRight = 20, kTop = 34, kBottom = 48, kLegendLine = 18;
 
 bool drawable(const PlotPoint& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && p.x > 0 && p.y > 0;
@@ -91,14 +91,22 @@ std::string draw_series(const PlotSeries& series, const Axis& x, const Axis& y) 
                      path, marks);
 }
 
-std::string draw_legend(const Plot& plot) {
+/// What the legend is made of; `lines` is set to how many lines it takes.
+std::string draw_legend(const Plot& plot, int& lines) {
   std::string svg;
+  lines = 1;
   double at = kLeft;
   for (const PlotSeries& series : plot.series) {
-    svg += fmt::format("<g class=\"series s{0}{1}\"><path d=\"M{2:.0f} 16h22\"/></g><text class=\"key\" x=\"{3:.0f}\" "
-                       "y=\"20\">{4}</text>\n",
-                       series.style, series.dashed ? " guide" : "", at, at + 28, escape_html(series.name));
-    at += 44 + 6.6 * static_cast<double>(series.name.size());
+    const double width = 44 + 6.6 * static_cast<double>(series.name.size());
+    if (at > kLeft && at + width > plot.width) {
+      at = kLeft;
+      ++lines;
+    }
+    const double y = 16 + kLegendLine * (lines - 1);
+    svg += fmt::format("<g class=\"series s{}{}\"><path d=\"M{:.0f} {:.0f}h22\"/></g><text class=\"key\" x=\"{:.0f}\" "
+                       "y=\"{:.0f}\">{}</text>\n",
+                       series.style, series.dashed ? " guide" : "", at, y, at + 28, y + 4, escape_html(series.name));
+    at += width;
   }
   return svg;
 }
@@ -116,14 +124,18 @@ std::string svg_plot(const Plot& plot) {
   x.round();
   y.round();
   x.from = kLeft, x.to = plot.width - kRight;
-  y.from = plot.height - kBottom, y.to = kTop;
-  std::string svg = fmt::format("<svg class=\"plot\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{} against {}\">\n",
+  int legend_lines = 0;
+  const std::string legend = draw_legend(plot, legend_lines);
+  y.from = plot.height - kBottom, y.to = kTop + kLegendLine * (legend_lines - 1);
+  std::string svg = fmt::format("<svg class=\"plot\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" "
+                                "aria-label=\"{2} against {3}\">\n",
                                 plot.width, plot.height, escape_html(plot.y_label), escape_html(plot.x_label));
-  svg += fmt::format("<clipPath id=\"clip{0}x{1}\"><rect x=\"{2}\" y=\"{3}\" width=\"{4}\" height=\"{5}\"/></clipPath>",
-                     plot.width, plot.height, kLeft, kTop, x.to - x.from, y.from - y.to);
-  svg += draw_grid(x, y, plot) + fmt::format("<g clip-path=\"url(#clip{}x{})\">\n", plot.width, plot.height);
+  const std::string clip = fmt::format("clip{}x{}x{}", plot.width, plot.height, legend_lines);
+  svg += fmt::format("<clipPath id=\"{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>", clip, kLeft,
+                     y.to, x.to - x.from, y.from - y.to);
+  svg += draw_grid(x, y, plot) + fmt::format("<g clip-path=\"url(#{})\">\n", clip);
   for (const PlotSeries& series : plot.series) svg += draw_series(series, x, y);
-  return svg + "</g>" + draw_legend(plot) + "</svg>\n";
+  return svg + "</g>" + legend + "</svg>\n";
 }
 
 std::string escape_html(const std::string& text) {

@@ -25,7 +25,7 @@ struct Plot {
   int width = 620, height = 380;
 };
 
-/// An <svg> element with classes for the page's style sheet; its legend stands at the lines' ends where there is room.
+/// An <svg> element with classes for the page's style sheet; its legend stands above.
 std::string svg_plot(const Plot& plot);
 
 /// & < > " as entities.

@@ -59,6 +59,14 @@ void print_paths(const PathsResult& r, bool json) {
                r.embree_mpaths, r.ratio(), r.mean_ratio);
 }
 
+void print_ray_share(const RayShareResult& r, bool json) {
+  if (json)
+    fmt::print("{{\"mpaths\": {:.3f}, \"mpaths_of_rays\": {:.3f}, \"ratio\": {:.3f}}}\n", r.mpaths, r.mpaths_of_rays(),
+               r.share);
+  else
+    fmt::print("Mpaths/s {:.2f}, its rays alone {:.2f}, ratio {:.3f}\n", r.mpaths, r.mpaths_of_rays(), r.share);
+}
+
 void print_media(const std::vector<MediumGain>& gains, const std::vector<MediumCost>& costs) {
   for (const MediumGain& g : gains)
     fmt::print("{:38} relMSE {:9.3g}, yardstick {:9.3g}: {:6.1f} times lower; largest pixel {:.1f} against {:.1f} means, "
@@ -127,6 +135,9 @@ int run(int argc, char** argv) {
   CLI::App* paths = app.add_subcommand("paths", "paths per second of a Cornell box against a path tracer with Embree");
   int paths_repetitions = 3;
   paths->add_option("--repetitions", paths_repetitions, "of each measurement, in turn")->check(CLI::Range(1, 1000));
+  std::string paths_scene;
+  paths->add_option("--scene", paths_scene, "of this scene instead, against its rays alone")
+      ->check(CLI::IsMember(scene_names()));
   paths->add_flag("--json", json);
 
   CLI::App* build = app.add_subcommand("build", "seconds to build the tree, against Embree's rtcCommitScene");
@@ -158,7 +169,8 @@ int run(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   if (rays->parsed()) print_rays(bench_rays(scene, repetitions), json);
-  if (paths->parsed()) print_paths(bench_paths(paths_repetitions), json);
+  if (paths->parsed() && !paths_scene.empty()) print_ray_share(bench_ray_share(paths_scene, paths_repetitions), json);
+  if (paths->parsed() && paths_scene.empty()) print_paths(bench_paths(paths_repetitions), json);
   if (build->parsed()) print_build(bench_build(build_mesh, build_repetitions), json);
   if (media->parsed()) print_media(bench_medium_gains(replicates), bench_medium_costs());
   if (lights->parsed() && sun) print_sun(bench_sun(lights_repetitions), json);

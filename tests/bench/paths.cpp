@@ -2,17 +2,22 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "base/timer.h"
 #include "bench/embree_paths.h"
+#include "bench/scenes.h"
 #include "scene/load_xml.h"
+#include "support/render_test.h"
 #include "wavefront/renderer.h"
 
 namespace tachylite::bench {
 namespace {
 
 constexpr int kCores = 2;
-constexpr uint32_t kSamples = 32, kEmbreeSamples = 8, kMaxDepth = 8;
+constexpr uint32_t kSamples = 32, kEmbreeSamples = 8, kRoomSamples = 8, kMaxDepth = 8;
 
 glm::dvec3 mean(const FilmBuffer& film) {
   glm::dvec3 sum(0);
@@ -21,7 +26,68 @@ glm::dvec3 mean(const FilmBuffer& film) {
   return sum / static_cast<double>(pixels);
 }
 
+/// The bench scene with diffuse surfaces, its light an area light.
+Scene diffuse_scene(const BenchScene& scene) {
+  std::string obj;
+  for (const glm::vec3& v : scene.mesh.vertices) obj += fmt::format("v {} {} {}\n", v.x, v.y, v.z);
+  // The last two triangles are the light.
+  for (size_t i = 0; i + 2 < scene.mesh.triangles.size(); ++i) {
+    const glm::uvec3 t = scene.mesh.triangles[i] + 1u;
+    obj += fmt::format("f {} {} {}\n", t.x, t.y, t.z);
+  }
+  const auto& [corner, u, v] = scene.light;
+  const glm::vec3 centre = corner + 0.5f * (u + v), n = glm::normalize(glm::cross(u, v));
+  const Camera& c = scene.camera;
+  return test::scene_from_elements(
+      fmt::format(R"(<integrator type="path"><integer name="max_depth" value="{}"/>
+<integer name="rr_depth" value="1000"/></integrator>
+<sensor type="perspective"><float name="fov" value="{}"/><transform name="to_world">
+<lookat origin="{}, {}, {}" target="{}, {}, {}" up="0, 0, 1"/></transform><film type="hdrfilm">
+<integer name="width" value="{}"/><integer name="height" value="{}"/><rfilter type="box"/></film></sensor>
+<shape type="obj"><string name="filename" value="mesh.obj"/><boolean name="face_normals" value="true"/>
+<bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0.7, 0.7, 0.7"/></bsdf></bsdf></shape>)",
+                  kMaxDepth, c.fov_degrees, c.eye.x, c.eye.y, c.eye.z, c.target.x, c.target.y, c.target.z, c.resolution,
+                  c.resolution) +
+          fmt::format(R"(<shape type="rectangle"><transform name="to_world">
+<matrix value="{} {} {} {} {} {} {} {} {} {} {} {} 0 0 0 1"/></transform>
+<emitter type="area"><rgb name="radiance" value="10, 10, 10"/></emitter></shape>)",
+                      u.x / 2, v.x / 2, n.x, centre.x, u.y / 2, v.y / 2, n.y, centre.y, u.z / 2, v.z / 2, n.z,
+                      centre.z),
+      {{"mesh.obj", obj}});
+}
+
 }  // namespace
+
+RayShareResult bench_ray_share(const std::string& name, int repetitions) {
+  const Scene scene = diffuse_scene(make_scene(name));
+  const PackedScene packed = pack_scene(scene);
+  vulkan::Device device;
+  RenderOptions options;
+  options.samples = kRoomSamples;
+  options.structure = KernelStructure::kStages;
+  double seconds = std::numeric_limits<double>::infinity();
+  std::vector<double> shares;
+  for (int i = 0; i < repetitions; ++i) {
+    options.seed = static_cast<uint32_t>(i);
+    options.timing = false;
+    Renderer plain(device, packed, options);
+    const CpuTimer timer;
+    plain.render();
+    seconds = std::min(seconds, timer.seconds());
+    options.timing = true;
+    Renderer timed(device, packed, options);
+    timed.render();
+    double rays = 0, all = 0;
+    for (const auto& [kernel, time] : timed.statistics().kernels) {
+      all += time.seconds;
+      if (kernel.starts_with("intersect")) rays += time.seconds;
+    }
+    shares.push_back(rays / all);
+  }
+  std::ranges::nth_element(shares, shares.begin() + static_cast<ptrdiff_t>(shares.size() / 2));
+  const double paths = static_cast<double>(packed.params.width) * packed.params.height * kRoomSamples;
+  return {1e-6 * kCores * paths / seconds, shares[shares.size() / 2]};
+}
 
 PathsResult bench_paths(int repetitions) {
   LoadOptions load;

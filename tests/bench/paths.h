@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 namespace tachylite::bench {
 
 /// Paths a second of the Cornell box of scenes/cornell-box (512 x 512, paths of up to 8 edges, no roulette, next-event
@@ -11,5 +13,13 @@ struct PathsResult {
   double ratio() const { return mpaths / embree_mpaths; }
 };
 PathsResult bench_paths(int repetitions);
+
+/// Paths a second of a scene of make_scene, and how many its rays alone would allow: if nothing but the kernels that
+/// trace took time. Their share is by timestamps, the median of the repetitions; paths are as above, of up to 8 edges.
+struct RayShareResult {
+  double mpaths = 0, share = 0;
+  double mpaths_of_rays() const { return mpaths / share; }
+};
+RayShareResult bench_ray_share(const std::string& scene, int repetitions);
 
 }  // namespace tachylite::bench

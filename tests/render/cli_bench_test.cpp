@@ -118,7 +118,8 @@ TEST_F(CliBench, ErrorsAgainstAReference) {
 }
 
 TEST_F(CliBench, Scaling) {
-  const ProgramResult result = bench({"--scaling", "depth,materials", "--scaling-seconds", "0.001", "--json"});
+  const ProgramResult result =
+      bench({"--scaling", "depth,materials", "--scaling-seconds", "0.001", "--json", "-o", "b.svg"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const Json scaling = Json::parse(result.out).at("scaling");
   ASSERT_EQ(scaling.size(), 2u);
@@ -127,6 +128,10 @@ TEST_F(CliBench, Scaling) {
     EXPECT_NE(series.at("note").get<std::string>().find("ended at 1"), std::string::npos);
     EXPECT_GT(series.at("points")[0].at("16 samples [s]"), 0);
   }
+  const std::string plots = read("b.svg");
+  EXPECT_TRUE(plots.starts_with("<svg xmlns=")) << plots.substr(0, 100);
+  for (const char* title : {"seconds against segments of a path", "memory [MiB] against classes of material"})
+    EXPECT_NE(plots.find(title), std::string::npos) << title;
 }
 
 TEST_F(CliBench, WrongUseIsRefused) {
