@@ -1,5 +1,6 @@
 #include "base/memory.h"
 
+#include <malloc.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -41,6 +42,9 @@ void require_memory(const FileLocation& where, const std::string& what, uint64_t
 
 uint64_t peak_memory() { return read_kibibytes("/proc/self/status", "VmHWM:"); }
 
-void forget_peak_memory() { std::ofstream("/proc/self/clear_refs") << 5; }  // proc(5): 5 resets VmHWM
+void forget_peak_memory() {
+  malloc_trim(0);  // what is free, but held, would count
+  std::ofstream("/proc/self/clear_refs") << 5;  // proc(5): 5 resets VmHWM
+}
 
 }  // namespace tachylite

@@ -45,7 +45,7 @@ struct Bench {
 
 constexpr const char *kRead = "reading [s]", *kTree = "tree [s]", *kPack = "packing [s]", *kKernels = "kernels [s]",
                      *kRender = "16 samples [s]", *kDevice = "device memory [MiB]",
-                     *kPeak = "peak memory of the process [MiB]", *kError = "relMSE of 16 samples [1]",
+                     *kPeak = "peak memory [MiB]", *kError = "relMSE of 16 samples [1]",
                      *kReadPly = "reading PLY [s]", *kReadObj = "reading OBJ [s]";
 
 ScalingPoint Bench::measure(double x, const std::filesystem::path& file) const {

@@ -63,6 +63,8 @@ CurvedPrimitive curved_primitive(const Shape& shape) {
   return curved;
 }
 
+constexpr size_t kGrain = 16384;  // of loops over a mesh
+
 struct Counts {
   size_t vertices = 0, triangles = 0, curved = 0;
 };
@@ -85,7 +87,16 @@ struct Bounds {
 
 void add_world_bounds(const Shape& shape, Bounds& bounds) {
   if (const auto* mesh = std::get_if<MeshShape>(&shape.kind)) {
-    for (const glm::vec3& p : mesh->mesh->positions) bounds.add(transform_point(shape.to_world, dvec3(p)));
+    const std::vector<glm::vec3>& positions = mesh->mesh->positions;
+    std::vector<Bounds> parts((positions.size() + kGrain - 1) / kGrain);
+    parallel_for_each(parts.size(), [&](size_t part) {
+      const size_t first = part * kGrain, last = std::min(first + kGrain, positions.size());
+      for (size_t i = first; i < last; ++i) parts[part].add(transform_point(shape.to_world, dvec3(positions[i])));
+    });
+    for (const Bounds& part : parts) {
+      bounds.min = glm::min(bounds.min, part.min);
+      bounds.max = glm::max(bounds.max, part.max);
+    }
   } else if (std::holds_alternative<RectangleShape>(shape.kind)) {
     for (const dvec3& p : kRectangle) bounds.add(transform_point(shape.to_world, p));
   } else if (std::holds_alternative<CubeShape>(shape.kind)) {
@@ -113,18 +124,22 @@ void put_face(const Face& face, const FaceUv& uv, const dmat4& to_device, size_t
 void put_mesh(const Shape& shape, const dmat4& to_device, const ShapeGeometry& range, Geometry& out) {
   const Mesh& mesh = *std::get<MeshShape>(shape.kind).mesh;
   const dmat3 normal_matrix = glm::transpose(glm::inverse(dmat3(shape.to_world)));
-  for (size_t i = 0; i < mesh.positions.size(); ++i) {
-    const size_t v = range.first_vertex + i;
-    out.vertices[v] = glm::vec3(transform_point(to_device, dvec3(mesh.positions[i])));
-    if (range.has_normals) {
-      const dvec3 n = normal_matrix * dvec3(mesh.normals[i]);
-      const double length = glm::length(n);
-      out.normals[v] = length > 0 ? glm::vec3(n / length) : glm::vec3(0);
+  parallel_for(0, mesh.positions.size(), kGrain, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      const size_t v = range.first_vertex + i;
+      out.vertices[v] = glm::vec3(transform_point(to_device, dvec3(mesh.positions[i])));
+      if (range.has_normals) {
+        const dvec3 n = normal_matrix * dvec3(mesh.normals[i]);
+        const double length = glm::length(n);
+        out.normals[v] = length > 0 ? glm::vec3(n / length) : glm::vec3(0);
+      }
+      if (range.has_uv) out.uvs[v] = mesh.uvs[i];
     }
-    if (range.has_uv) out.uvs[v] = mesh.uvs[i];
-  }
-  for (size_t i = 0; i < mesh.triangles.size(); ++i)
-    out.triangles[range.first_primitive + i] = mesh.triangles[i] + glm::uvec3(range.first_vertex);
+  });
+  parallel_for(0, mesh.triangles.size(), kGrain, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i)
+      out.triangles[range.first_primitive + i] = mesh.triangles[i] + glm::uvec3(range.first_vertex);
+  });
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_access.hpp>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/timer.h"
 #include "pack/pack_camera.h"
 #include "pack/pack_geometry.h"
@@ -21,6 +22,8 @@
 namespace tachylite {
 namespace {
 
+constexpr size_t kGrain = 16384;
+
 using glm::dvec3;
 using glm::uvec4;
 using glm::vec4;
@@ -30,17 +33,24 @@ void put_vertices(const Geometry& geometry, PackedScene& out) {
   const size_t count = geometry.vertices.size();
   const bool uv = out.features.vertex_uv && !geometry.uvs.empty();
   out.positions.resize(count);
-  for (size_t i = 0; i < count; ++i) out.positions[i] = vec4(geometry.vertices[i], uv ? geometry.uvs[i].x : 0.0f);
-  if (!out.features.vertex_normals && !uv) return;
-  out.normals.resize(count);
-  for (size_t i = 0; i < count; ++i)
-    out.normals[i] = vec4(geometry.normals.empty() ? glm::vec3(0) : geometry.normals[i], uv ? geometry.uvs[i].y : 0.0f);
+  const bool normals = out.features.vertex_normals || uv;
+  if (normals) out.normals.resize(count);
+  parallel_for(0, count, kGrain, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      out.positions[i] = vec4(geometry.vertices[i], uv ? geometry.uvs[i].x : 0.0f);
+      if (normals)
+        out.normals[i] =
+            vec4(geometry.normals.empty() ? glm::vec3(0) : geometry.normals[i], uv ? geometry.uvs[i].y : 0.0f);
+    }
+  });
 }
 
 void put_primitives(const Geometry& geometry, PackedScene& out) {
   out.triangles.resize(geometry.triangles.size());
-  for (size_t i = 0; i < geometry.triangles.size(); ++i)
-    out.triangles[i] = uvec4(geometry.triangles[i], geometry.shape_of_triangle[i] * gpu::kShapeRows);
+  parallel_for(0, geometry.triangles.size(), kGrain, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i)
+      out.triangles[i] = uvec4(geometry.triangles[i], geometry.shape_of_triangle[i] * gpu::kShapeRows);
+  });
   for (size_t i = 0; i < geometry.curved.size(); ++i) {
     const CurvedPrimitive& curved = geometry.curved[i];
     const glm::dmat4& m = curved.object_to_world;
@@ -78,7 +88,7 @@ bool samples_segments(const FeatureSet& features) {
 // leaf_info names class and emission, so that intersect_closest sorts paths with one load.
 void mark_leaves(const Scene& scene, const Geometry& geometry, const std::vector<uint32_t>& class_of_shape,
                  const std::vector<bool>& shape_emits, PackedScene& out) {
-  for (uvec4& info : out.bvh.leaf_info) {
+  const auto mark = [&](uvec4& info) {
     const bool curved = (info.z & gpu::kLeafKindMask) != gpu::kLeafTriangles;
     const uint32_t shape = curved ? geometry.shape_of_curved[info.x - geometry.triangles.size()]
                                   : geometry.shape_of_triangle[info.x];
@@ -87,7 +97,10 @@ void mark_leaves(const Scene& scene, const Geometry& geometry, const std::vector
     if (scene.shapes[shape].emitter != kNone) info.z |= gpu::kLeafHides;
     // Curved primitives are found by their rows.
     if (curved) info.x = (info.x - static_cast<uint32_t>(geometry.triangles.size())) * gpu::kCurvedRows;
-  }
+  };
+  parallel_for(0, out.bvh.leaf_info.size(), kGrain, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) mark(out.bvh.leaf_info[i]);
+  });
 }
 
 // The auxiliary channels that the integrator asks for.
