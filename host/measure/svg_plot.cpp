@@ -15,6 +15,8 @@ bool drawable(const PlotPoint& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && p.x > 0 && p.y > 0;
 }
 
+bool has_interval(const PlotPoint& p) { return p.y_low > 0 && p.y_high > p.y_low; }
+
 /// A logarithmic axis from low to high (decades), drawn from `from` to `to`.
 struct Axis {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -80,7 +82,7 @@ std::string draw_series(const PlotSeries& series, const Axis& x, const Axis& y) 
   for (const PlotPoint& p : series.points) {
     if (!drawable(p)) continue;
     path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x(p.x), y(p.y));
-    if (p.y_low > 0 && p.y_high > p.y_low)
+    if (has_interval(p))
       marks += fmt::format("<line class=\"bar\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1:.1f}\" y2=\"{2:.1f}\"/>", x(p.x),
                            y(p.y_low), y(p.y_high));
     if (!series.dashed)
@@ -120,6 +122,9 @@ std::string svg_plot(const Plot& plot) {
       if (!drawable(p)) continue;
       x.grow(p.x);
       y.grow(p.y);
+      if (!has_interval(p)) continue;
+      y.grow(p.y_low);
+      y.grow(p.y_high);
     }
   x.round();
   y.round();

@@ -163,5 +163,19 @@ TEST(Measure, PlotsEscapeNamesAndLeaveOutWhatHasNoLogarithm) {
   EXPECT_EQ(circles, 2u);
 }
 
+TEST(Measure, PlotsHoldIntervalsAndLongLegends) {
+  Plot plot;
+  plot.series = {{"one", {{1, 2, 0.01, 100, ""}, {10, 3, 0, 0, ""}}, 0, false}};
+  const std::string svg = svg_plot(plot);
+  const auto number = [&](const std::string& name) {
+    return std::stod(svg.substr(svg.find(name, svg.find("\"bar\"")) + 4));
+  };
+  EXPECT_GT(number("y2="), 30);  // the top
+  EXPECT_LT(number("y1="), plot.height - 40);
+  EXPECT_EQ(svg.find("y=\"38\""), std::string::npos);
+  for (int i = 0; i < 9; ++i) plot.series.push_back({"a name of some length", {}, 1, false});
+  EXPECT_NE(svg_plot(plot).find("y=\"38\""), std::string::npos);  // the second line
+}
+
 }  // namespace
 }  // namespace tachylite
