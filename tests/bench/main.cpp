@@ -65,6 +65,8 @@ void print_ray_share(const RayShareResult& r, bool json) {
                r.share);
   else
     fmt::print("Mpaths/s {:.2f}, its rays alone {:.2f}, ratio {:.3f}\n", r.mpaths, r.mpaths_of_rays(), r.share);
+  if (json) return;
+  for (const auto& [kernel, share] : r.kernels) fmt::print("  {:24} {:5.1f} %\n", kernel, 100 * share);
 }
 
 void print_media(const std::vector<MediumGain>& gains, const std::vector<MediumCost>& costs) {

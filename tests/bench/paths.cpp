@@ -66,6 +66,7 @@ RayShareResult bench_ray_share(const std::string& name, int repetitions) {
   options.samples = kRoomSamples;
   options.structure = KernelStructure::kStages;
   double seconds = std::numeric_limits<double>::infinity();
+  RayShareResult result;
   std::vector<double> shares;
   for (int i = 0; i < repetitions; ++i) {
     options.seed = static_cast<uint32_t>(i);
@@ -82,11 +83,14 @@ RayShareResult bench_ray_share(const std::string& name, int repetitions) {
       all += time.seconds;
       if (kernel.starts_with("intersect")) rays += time.seconds;
     }
+    for (const auto& [kernel, time] : timed.statistics().kernels) result.kernels[kernel] = time.seconds / all;
     shares.push_back(rays / all);
   }
   std::ranges::nth_element(shares, shares.begin() + static_cast<ptrdiff_t>(shares.size() / 2));
   const double paths = static_cast<double>(packed.params.width) * packed.params.height * kRoomSamples;
-  return {1e-6 * kCores * paths / seconds, shares[shares.size() / 2]};
+  result.mpaths = 1e-6 * kCores * paths / seconds;
+  result.share = shares[shares.size() / 2];
+  return result;
 }
 
 PathsResult bench_paths(int repetitions) {

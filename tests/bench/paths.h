@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 
 namespace tachylite::bench {
@@ -18,6 +19,7 @@ PathsResult bench_paths(int repetitions);
 /// trace took time. Their share is by timestamps, the median of the repetitions; paths are as above, of up to 8 edges.
 struct RayShareResult {
   double mpaths = 0, share = 0;
+  std::map<std::string, double> kernels;  // share of each, in the last repetition
   double mpaths_of_rays() const { return mpaths / share; }
 };
 RayShareResult bench_ray_share(const std::string& scene, int repetitions);
