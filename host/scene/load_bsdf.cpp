@@ -65,7 +65,7 @@ void read_conductor(const Plugin& plugin, T& bsdf) {
   } else {
     const auto index = find_conductor(plugin.string("material", plugin.node().legacy ? "Cu" : "none"));
     if (!index)
-      plugin.fail("material", "none, a-C, Ag, Al, Au, Cr, Cu, Ni_palik or W; others are not supported: give eta and k");
+      plugin.fail("material", fmt::format("one of {}; for others give eta and k", list_conductors()));
     bsdf.eta = index->eta;
     bsdf.k = index->k;
   }

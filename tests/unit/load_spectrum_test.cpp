@@ -79,6 +79,32 @@ TEST(LoadSpectrum, TungstenAndNickelOfTheTable) {
               find_conductor("Ni_palik")->k, 1e-5);
 }
 
+// Two of those whose spectra the table's own comment names (luxpop.com), and what names mean.
+TEST(LoadSpectrum, OtherConductors) {
+  const dvec3 iridium = spectrum_to_rgb(
+      {354.229004, 364.647003, 375.696991, 387.437988, 399.935028, 413.266998, 427.516998, 442.785980, 459.185028,
+       476.846008, 495.920013, 516.583008, 539.044006, 563.545044, 590.381042, 619.900024, 652.526001, 688.778015,
+       729.294006, 774.875000, 826.533020, 885.570984},
+      {1.50, 1.53, 1.57, 1.62, 1.68, 1.73, 1.77, 1.81, 1.85, 1.91, 1.98, 2.07, 2.18, 2.29, 2.40, 2.50, 2.57, 2.64, 2.69,
+       2.68, 2.65, 2.72},
+      ColorUse::kEmission);
+  expect_near(iridium, find_conductor("Ir")->eta, 1e-5);
+  const dvec3 titanium_nitride =
+      spectrum_to_rgb({354.229004, 413.266998, 495.920013, 619.900024, 826.533020}, {1.06, 1.04, 1.65, 2.69, 3.81},
+                      ColorUse::kEmission);
+  // The data end at 826.5 nm, where the curves hardly see.
+  expect_near(titanium_nitride, find_conductor("TiN")->k, 1e-5);
+  EXPECT_EQ(find_conductor("TiN_palik")->k, find_conductor("TiN")->k);
+  EXPECT_NE(find_conductor("Cu_palik")->eta, find_conductor("Cu")->eta);
+  EXPECT_EQ(find_conductor("none")->k, dvec3(1));
+  for (const char* unknown : {"au", "Ag_palik", "none_palik", "Na", "Ni", "V", "_palik", ""})
+    EXPECT_FALSE(find_conductor(unknown)) << unknown;
+  for (const char* name : {"a-C", "AlAs_palik", "AlSb", "Be", "CsI", "Cu2O", "CuO", "d-C", "Hg", "HgTe", "K", "Li", "MgO",
+                           "Mo", "Na_palik", "Nb", "Ni_palik", "Rh", "Se", "SiC", "SnTe", "Ta", "Te", "ThF4", "TiC",
+                           "TiO2", "VC", "V_palik", "VN", "W"})
+    EXPECT_TRUE(find_conductor(name)) << name;
+}
+
 TEST(LoadSpectrum, OutOfRangeColoursAreClamped) {
   // A narrow line of 500 nm has negative red, and as reflectance of 50 too much green.
   const dvec3 line = spectrum_to_rgb({499, 500, 501}, {0, 50, 0}, ColorUse::kEmission);
