@@ -29,6 +29,7 @@ std::vector<Named> named_features(const FeatureSet& f) {
           {(f.textures & gpu::kTexturesAttribute) != 0, "mesh attributes"},
           {material(gpu::kMaterialHasWeights), "blended or masked materials"},
           {material(gpu::kMaterialHasFrames), "normal or bump maps"},
+          {material(gpu::kMaterialNestedFrames), "maps inside maps"},
           {f.classes.size() > 1, "several material classes"},
           {f.area_lights(), "area lights"},
           {light(gpu::kLightPoint), "point lights"},

@@ -8,6 +8,7 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "pack/pack_leaf.h"
+#include "shared/counters.h"
 #include "shared/geometry.h"
 #include "shared/material.h"
 
@@ -28,14 +29,14 @@ struct FlatLeaf {
   PackedLeaf leaf;
   std::vector<Weight> weights;
   uint32_t mirrors = 0;
-  Frame frame;
+  std::vector<Frame> frames;  // from outside in
 };
 enum Side { kFront = 1, kBack = 2 };
 /// What the adapters on the way down from the root say.
 struct Context {
   std::vector<Weight> weights;
   uint32_t mirrors = 0;
-  Frame frame;
+  std::vector<Frame> frames;
   int sides = kFront | kBack;
 };
 struct FlatMaterial {
@@ -102,7 +103,7 @@ class Flattener {
     Context back = front;
     front.sides &= kFront;
     back.sides &= kBack;
-    if ((context.mirrors & gpu::kMirrorOuter) != 0) {
+    if (context.mirrors != 0) {
       front.sides = context.sides;
       back.sides = 0;
     }
@@ -123,9 +124,10 @@ class Flattener {
            (map.use_shadowing_function ? gpu::kFrameShadowing : 0u);
   }
   void visit_framed(const Bsdf& bsdf, BsdfIndex child, const Frame& frame, Context context) {
-    if (context.frame.kind != gpu::kFrameNone)
-      throw InputError(bsdf.where, "a normal or bump map inside another is not supported");
-    context.frame = frame;
+    if (context.frames.size() == gpu::kMostFrames)
+      throw InputError(bsdf.where, fmt::format("normal and bump maps inside one another: expected at most {}",
+                                               gpu::kMostFrames));
+    context.frames.push_back(frame);
     visit(child, context);
   }
 
@@ -140,11 +142,12 @@ class Flattener {
     return context;
   }
   static void mirror(Context& context) {
-    context.mirrors |= context.frame.kind == gpu::kFrameNone ? gpu::kMirrorOuter : gpu::kMirrorInner;
+    static_assert(gpu::kMirrorInner == gpu::kMirrorOuter << 1 && gpu::kMirrorInnermost == gpu::kMirrorOuter << 2);
+    context.mirrors |= gpu::kMirrorOuter << context.frames.size();
   }
   void add(PackedLeaf leaf, const Context& context) {
     auto flat = std::make_shared<const FlatLeaf>(
-        FlatLeaf{std::move(leaf), context.weights, context.mirrors, context.frame});
+        FlatLeaf{std::move(leaf), context.weights, context.mirrors, context.frames});
     if (context.sides & kFront) material_.lists[0].push_back(flat);
     if (context.sides & kBack) material_.lists[1].push_back(flat);
   }
@@ -177,8 +180,9 @@ std::optional<MaterialClass> class_of(const FlatMaterial& material) {
           result.textured |= gpu::kTexturedWeights;
           result.flags |= gpu::kMaterialTextured;
         }
-      if (flat->frame.kind != gpu::kFrameNone)
+      if (!flat->frames.empty())
         result.flags |= gpu::kMaterialHasFrames | gpu::kMaterialTextured | gpu::kMaterialTangent;
+      if (flat->frames.size() > 1) result.flags |= gpu::kMaterialNestedFrames;
       (flat->mirrors & gpu::kMirrorOuter ? outer : not_outer) += 1;
     }
   }
@@ -219,9 +223,12 @@ class MaterialWriter {
     const size_t head = rows_.size();
     rows_.emplace_back();
     rows_.insert(rows_.end(), flat.leaf.rows.begin(), flat.leaf.rows.end());
-    if (flat.frame.kind != gpu::kFrameNone) {
-      rows_.push_back(float_row(flat.frame.scale));
-      rows_.back().w = texture_row(flat.frame.texture);
+    uint32_t kinds = 0, shift = 0;
+    for (const Frame& frame : flat.frames) {
+      rows_.push_back(float_row(frame.scale));
+      rows_.back().w = texture_row(frame.texture);
+      kinds |= (frame.kind | frame.options << 8) << shift;
+      shift += 16;
     }
     const auto first_weight = static_cast<uint32_t>(rows_.size() - head);
     for (const Weight& weight : flat.weights)
@@ -229,7 +236,7 @@ class MaterialWriter {
                                                                (weight.complement ? gpu::kInputComplement : 0u)));
     rows_[head] = {flat.leaf.type | flat.mirrors << 8 | flat.leaf.options << 16,
                    static_cast<uint32_t>(flat.weights.size()) | first_weight << 16,
-                   flat.frame.kind | flat.frame.options << 8, static_cast<uint32_t>(rows_.size() - head)};
+                   kinds, static_cast<uint32_t>(rows_.size() - head)};
   }
 
   std::span<const uint32_t> row_of_texture_;
@@ -256,8 +263,9 @@ PackedMaterials pack_materials(const Scene& scene, std::span<const uint32_t> row
     const auto found = std::find(packed.classes.begin(), packed.classes.end(), *material_class);
     packed.class_of_bsdf[bsdf] = static_cast<uint32_t>(found - packed.classes.begin());
     if (found == packed.classes.end()) packed.classes.push_back(*material_class);
-    if (packed.classes.size() > gpu::kClassNone)
-      throw InputError(scene.bsdfs[bsdf].where, fmt::format("more than {} kinds of material", gpu::kClassNone));
+    static_assert(gpu::kMaxClasses <= gpu::kClassNone);
+    if (packed.classes.size() > gpu::kMaxClasses)
+      throw InputError(scene.bsdfs[bsdf].where, fmt::format("more than {} kinds of material", gpu::kMaxClasses));
   }
   return packed;
 }
@@ -268,6 +276,7 @@ std::string bsdf_kernel_variant(const MaterialClass& c) {
       "_rough_dielectric", "_plastic", "_rough_plastic", "_principled", "_principled_thin", "_blinn_phong", "_microfacet"};
   constexpr uint32_t kPrincipled = 1u << gpu::kBsdfPrincipled | 1u << gpu::kBsdfPrincipledThin;
   const uint32_t types = c.bsdfs & ~(1u << gpu::kBsdfNull);  // none: null alone, for which any variant does
+  if (c.flags & gpu::kMaterialNestedFrames) return "";
   const bool textured = c.textured != 0 || (c.flags & gpu::kMaterialHasFrames) != 0;
   if (c.max_leaves <= 1 && std::popcount(types) <= 1)
     return std::string(kNames[types == 0 ? 0 : std::countr_zero(types)]) + (textured ? "_textured" : "");

@@ -8,15 +8,23 @@
 #include "bsdf/shading_map.glsl"
 #include "geometry/interaction.glsl"
 
+// Maps inside maps are in the kernel that has everything, and cost no other any time to compile.
+#if BSDF_TYPES != 0xffff || defined(BSDF_SINGLE_LEAF) || defined(BSDF_NO_TEXTURES)
+#define IF_NESTED_MAPS(code)
+#else
+#define IF_NESTED_MAPS(code) code
+#endif
+
 // Members of types that the class does not have are never written or read, and vanish.
 struct Leaf {
   uint type;        // kBsdf...
   vec3 s, t, n;     // world-space axes of the leaf's frame; mirrors are folded in, so it may be left-handed
   vec3 wo;          // in that frame
   vec3 wo_world;
-  vec3 n_shading;   // shading normal, mirrored as the leaf asks
+  vec3 n_shading;   // shading normal, mirrored as the leaf asks; that of the outer map where there are two
   float n_side;     // -1: n is mirrored after the normal or bump map
   float alpha2;     // of that map's shadowing
+  IF_NESTED_MAPS(vec3 n_outer; float outer_side; float outer_alpha2;)  // the same three of the map around that one
   IF_DIFFUSE(DiffuseBsdf diffuse;)
   IF_ROUGH_DIFFUSE(RoughDiffuseBsdf rough_diffuse;)
   IF_CONDUCTOR(ConductorBsdf conductor;)
@@ -51,6 +59,19 @@ bool has_leaf_headers() {
 vec3 to_leaf(Leaf leaf, vec3 w) { return vec3(dot(leaf.s, w), dot(leaf.t, w), dot(leaf.n, w)); }
 vec3 from_leaf(Leaf leaf, vec3 w) { return w.x * leaf.s + w.y * leaf.t + w.z * leaf.n; }
 
+// Turns the frame by the map of the given kind and options whose row is `row`, and mirrors what is inside as asked.
+// The shading frame of `it` is that of the map, not mirrored.
+ShadingMap turn_leaf_frame(inout Leaf leaf, uint map, uint row, Interaction it, bool mirror) {
+  ShadingMap turn = load_shading_map(map, row, it, to_leaf(leaf, leaf.wo_world));
+  vec3 s = from_leaf(leaf, turn.s), t = from_leaf(leaf, turn.t), n = from_leaf(leaf, turn.n);
+  leaf.n_side = mirror && dot(n, leaf.wo_world) < 0.0 ? -1.0 : 1.0;
+  leaf.s = s;
+  leaf.t = t;
+  leaf.n = leaf.n_side * n;
+  leaf.alpha2 = turn.alpha2;
+  return turn;
+}
+
 void set_leaf_frame(inout Leaf leaf, uint row, uvec4 header, Interaction it, vec3 wo) {
   leaf.s = it.s;
   leaf.t = it.t;
@@ -62,16 +83,26 @@ void set_leaf_frame(inout Leaf leaf, uint row, uvec4 header, Interaction it, vec
   leaf.n_shading = leaf.n;
   leaf.n_side = 1.0;
   leaf.alpha2 = 0.0;
-  if (has_material(kMaterialHasFrames) && (header.z & 0xffu) != kFrameNone) {
-    // The frame's row is the one before the weights.
-    ShadingMap map = load_shading_map(header, row + (header.y >> 16u) - 1u, it, to_leaf(leaf, wo));
-    vec3 s = from_leaf(leaf, map.s), t = from_leaf(leaf, map.t), n = from_leaf(leaf, map.n);
-    leaf.n_side = (header.x & (kMirrorInner << 8u)) != 0u && dot(n, wo) < 0.0 ? -1.0 : 1.0;
-    leaf.s = s;
-    leaf.t = t;
-    leaf.n = leaf.n_side * n;
-    leaf.alpha2 = map.alpha2;
-  }
+  uint map = header.z, mirror_inside = kMirrorInner << 8u;
+  uint frame_row = row + (header.y >> 16u) - 1u;  // the one before the weights
+  IF_NESTED_MAPS(leaf.n_outer = leaf.n; leaf.outer_side = 1.0; leaf.outer_alpha2 = 0.0;)
+  IF_NESTED_MAPS(if (has_material(kMaterialNestedFrames) && (header.z >> 16u) != kFrameNone) {
+    bool between = (header.x & mirror_inside) != 0u;
+    ShadingMap turn = turn_leaf_frame(leaf, header.z & 0xffffu, frame_row - 1u, it, between);
+    vec3 s = it.s * turn.s.x + it.t * turn.s.y + it.n_s * turn.s.z;
+    vec3 t = it.s * turn.t.x + it.t * turn.t.y + it.n_s * turn.t.z;
+    vec3 n = it.s * turn.n.x + it.t * turn.n.y + it.n_s * turn.n.z;
+    it.s = s;
+    it.t = t;
+    it.n_s = n;
+    leaf.n_shading = leaf.n;
+    leaf.outer_side = leaf.n_side;
+    leaf.outer_alpha2 = leaf.alpha2;
+    map = header.z >> 16u;
+    mirror_inside = kMirrorInnermost << 8u;
+  })
+  if (has_material(kMaterialHasFrames) && (header.z & 0xffu) != kFrameNone)
+    turn_leaf_frame(leaf, map, frame_row, it, (header.x & mirror_inside) != 0u);
   leaf.wo = to_leaf(leaf, wo);
 }
 
@@ -99,6 +130,20 @@ Leaf load_leaf(uint row, uvec4 header, Interaction it, vec3 wo_world) {
   return leaf;
 }
 
+// Share of light from wi that the leaf's maps let through; 0 where one of them and what is around it have wi on
+// different sides. z: of wi in the leaf's frame.
+float leaf_map_shadowing(Leaf leaf, vec3 wi_world, float z) {
+  float cos_shading = dot(leaf.n_shading, wi_world);
+  float share = shading_map_shadowing(leaf.alpha2, cos_shading);
+  if (!(cos_shading * leaf.n_side * z > 0.0)) share = 0.0;
+  IF_NESTED_MAPS(if (has_material(kMaterialNestedFrames)) {
+    float cos_outer = dot(leaf.n_outer, wi_world);
+    share *= shading_map_shadowing(leaf.outer_alpha2, cos_outer);
+    if (!(cos_outer * leaf.outer_side * cos_shading > 0.0)) share = 0.0;
+  })
+  return share;
+}
+
 BsdfEval eval_leaf(Leaf leaf, vec3 wi_world) {
   vec3 wo = leaf.wo, wi = to_leaf(leaf, wi_world);
   BsdfEval eval = kNoEval;
@@ -113,9 +158,9 @@ BsdfEval eval_leaf(Leaf leaf, vec3 wi_world) {
   IF_BLINN_PHONG(if (is_leaf(leaf.type, kBsdfBlinnPhong)) eval = eval_blinn_phong(leaf.blinn_phong, wo, wi);)
   IF_MICROFACET(if (is_leaf(leaf.type, kBsdfMicrofacet)) eval = eval_nori_microfacet(leaf.nori_microfacet, wo, wi);)
   if (has_material(kMaterialHasFrames)) {
-    float cos_shading = dot(leaf.n_shading, wi_world);
-    eval.f *= shading_map_shadowing(leaf.alpha2, cos_shading);
-    if (!(cos_shading * leaf.n_side * wi.z > 0.0)) eval = kNoEval;
+    float share = leaf_map_shadowing(leaf, wi_world, wi.z);
+    eval.f *= share;
+    if (!(share > 0.0)) eval = kNoEval;
   }
   return eval;
 }
@@ -140,9 +185,9 @@ BsdfSample sample_leaf(Leaf leaf, vec2 u, float u_lobe) {
   s.wi = from_leaf(leaf, s.wi);
   if (has_bsdf(kBsdfThinDielectric) && (s.flags & kLobeNull) != 0u) s.wi = -leaf.wo_world;
   if (has_material(kMaterialHasFrames)) {
-    float cos_shading = dot(leaf.n_shading, s.wi);
-    s.weight *= shading_map_shadowing(leaf.alpha2, cos_shading);
-    if (!(cos_shading * leaf.n_side * z > 0.0)) s = absorbed();
+    float share = leaf_map_shadowing(leaf, s.wi, z);
+    s.weight *= share;
+    if (!(share > 0.0)) s = absorbed();
   }
   return s;
 }

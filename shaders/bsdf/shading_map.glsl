@@ -1,7 +1,8 @@
 // Normal and bump maps: a frame for the leaf that is turned against the shading frame, as Mitsuba 3.7's `normalmap`
 // and `bumpmap`. The two share Schuessler et al. 2017, "Microfacet-Based Normal Mapping for Robust Monte Carlo Path
 // Tracing" (turn normals that face away from wo), and Conty Estevez et al. 2019, "A Microfacet-Based Shadowing
-// Function to Solve the Bump Terminator Problem" (eq. 1 to 3).
+// Function to Solve the Bump Terminator Problem" (eq. 1 to 3). The frame of a map is the shading frame of the map inside
+// it; what the surface itself gives (derivatives, geometric normal) stays.
 #ifndef TACHYLITE_BSDF_SHADING_MAP_GLSL
 #define TACHYLITE_BSDF_SHADING_MAP_GLSL
 #include "base/math.glsl"
@@ -22,10 +23,10 @@ vec3 normal_of_tangents(vec3 a, vec3 b) {
   return length2 > 0.0 ? n * inversesqrt(length2) : vec3(0.0);
 }
 
-// header: of the leaf; row: of its frame; wo: in the shading frame.
-ShadingMap load_shading_map(uvec4 header, uint row, Interaction it, vec3 wo) {
+// map: kind and options as in a leaf's header; row: of its frame; wo: in the shading frame.
+ShadingMap load_shading_map(uint map, uint row, Interaction it, vec3 wo) {
   uvec4 frame = load_material_row(row);
-  uint kind = header.z & 0xffu, options = header.z >> 8u;
+  uint kind = map & 0xffu, options = map >> 8u;
   vec3 n = vec3(0.0, 0.0, 1.0);
   if (kind == kFrameNormalMap) n = 2.0 * input_color(frame.w, it.point) - 1.0;
   if (kind == kFrameBumpMap) {

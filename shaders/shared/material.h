@@ -9,10 +9,11 @@
 //   behind). Both lists may be the same. Where the flags lack kMaterialSides the one list begins in row 1.
 // Leaf, from its first row on:
 //   row 0: type (kBsdf...) | mirrors << 8 | options << 16; number of weights | row of the first weight (counted
-//          from the leaf's first row) << 16; frame kind | frame options << 8; rows to the next leaf
-//   then the inputs and constants of its type, as its file in shaders/bsdf says; then, where the frame kind is not
-//   kFrameNone, one row (scale bits, unused, unused, texture row); then the weights, one scalar input each
-//   (kInputComplement in the texture word: use 1 - value). A weight is clamped to [0, 1].
+//          from the leaf's first row) << 16; frame kind | frame options << 8, of the map inside it, if any, << 16;
+//          rows to the next leaf
+//   then the inputs and constants of its type, as its file in shaders/bsdf says; then, for each frame kind that is not
+//   kFrameNone, one row (scale bits, unused, unused, texture row), the outer one first; then the weights, one scalar
+//   input each (kInputComplement in the texture word: use 1 - value). A weight is clamped to [0, 1].
 // Input (one row): (r, g, b as float bits; row of the texture in kBindTextures, or kNoTexture). A weight has its value
 //   in r. Other scalars come as a pair (two values, two texture rows) or a quad (a row of values, a row of texture
 //   rows; the latter is read only where the class says that one is a texture).
@@ -37,10 +38,11 @@ TACHYLITE_CONST uint kBsdfPrincipledThin = 11u;
 TACHYLITE_CONST uint kBsdfBlinnPhong = 12u;
 TACHYLITE_CONST uint kBsdfMicrofacet = 13u;
 
-// Mirrors of a leaf: wo and wi are mirrored to the front (z negated where wo is behind) before or after the normal
-// or bump map turns the frame.
+// Mirrors of a leaf: wo and wi are mirrored to the front (z negated where wo is behind) before the normal or bump map
+// turns the frame, after it, and after the map inside that one. Bit i: after i maps.
 TACHYLITE_CONST uint kMirrorOuter = 1u;
 TACHYLITE_CONST uint kMirrorInner = 2u;
+TACHYLITE_CONST uint kMirrorInnermost = 4u;
 
 // Options of a leaf.
 TACHYLITE_CONST uint kOptionGgx = 1u;          // else Beckmann
@@ -50,6 +52,7 @@ TACHYLITE_CONST uint kFrameNormalMap = 1u;
 TACHYLITE_CONST uint kFrameBumpMap = 2u;
 TACHYLITE_CONST uint kFrameFlipInvalid = 1u;   // options of a frame
 TACHYLITE_CONST uint kFrameShadowing = 2u;
+TACHYLITE_CONST uint kMostFrames = 2u;         // inside one another
 
 TACHYLITE_CONST uint kNoTexture = 0x7fffffffu;
 TACHYLITE_CONST uint kInputComplement = 0x80000000u;  // on a weight: 1 - value
@@ -71,6 +74,7 @@ TACHYLITE_CONST uint kMaterialSides = 512u;      // lists of front and back diff
 TACHYLITE_CONST uint kMaterialNull = 1024u;      // a null part: shadow rays may pass
 TACHYLITE_CONST uint kMaterialTransmits = 2048u; // principled: spec_trans
 TACHYLITE_CONST uint kMaterialClearcoat = 4096u; // principled: clearcoat
+TACHYLITE_CONST uint kMaterialNestedFrames = 8192u;  // a normal or bump map inside another
 TACHYLITE_CONST uint kMaterialMaxLeaves = 8u;    // in one list
 TACHYLITE_CONST uint kRoughTransmittanceSize = 64u;  // entries of roughplastic's table
 

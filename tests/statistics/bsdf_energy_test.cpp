@@ -102,6 +102,56 @@ TEST_F(BsdfEnergy, ValuesAreThoseOfTheReference) {
   }
 }
 
+/// The same of normal maps, alone and in one another, with what may stand between them; bump maps need a surface:
+/// tests/render/nested_tiles_test.cpp.
+TEST_F(BsdfEnergy, NestedMapsAreThoseOfTheReference) {
+  Scene scene;
+  const auto texture = [&](const dvec3& value) {
+    scene.textures.push_back({{}, dmat3(1), CheckerboardTexture{value, value}});
+    return static_cast<TextureIndex>(scene.textures.size()) - 1;
+  };
+  const auto add = [&](const BsdfKind& kind) {
+    scene.bsdfs.push_back({.kind = kind});
+    return static_cast<BsdfIndex>(scene.bsdfs.size()) - 1;
+  };
+  const TextureIndex first = texture({0.7, 0.35, 0.85}), second = texture({0.3, 0.45, 0.9});
+  std::vector<BsdfIndex> asked;
+  const BsdfIndex metal = add(RoughConductorBsdf{{MicrofacetDistribution::kGgx, 0.6, 0.2}});
+  for (const bool flip : {true, false})
+    for (const bool shadowing : {true, false}) {
+      const BsdfIndex inner = add(NormalMapBsdf{metal, second, flip, shadowing});
+      asked.push_back(inner);
+      asked.push_back(add(NormalMapBsdf{inner, first, true, shadowing}));
+      asked.push_back(add(NormalMapBsdf{inner, first, flip, true}));
+      // Mirrors around, between and inside.
+      const BsdfIndex mirrored = add(TwoSidedBsdf{metal, metal});
+      const BsdfIndex innermost = add(NormalMapBsdf{mirrored, second, flip, shadowing});
+      asked.push_back(add(NormalMapBsdf{innermost, first, flip, shadowing}));
+      const BsdfIndex between = add(TwoSidedBsdf{inner, inner});
+      asked.push_back(add(NormalMapBsdf{between, first, flip, shadowing}));
+      const BsdfIndex outer = add(NormalMapBsdf{inner, first, flip, shadowing});
+      asked.push_back(add(TwoSidedBsdf{outer, outer}));
+    }
+  BsdfProbe probe(scene);
+  const reference::Materials materials(scene);
+  const reference::TextureCoordinates at;
+  const reference::ShadingPoint point{materials, at, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
+  for (const BsdfIndex bsdf : asked) {
+    const auto queries = pairs_for(bsdf, 2048, 7);
+    const auto answers = probe.ask(queries);
+    const double scale = largest(answers, queries);
+    size_t lit = 0;
+    for (size_t k = 0; k < answers.size(); ++k) {
+      const glm::dvec3 wo(queries[k].wo), wi(queries[k].wi);
+      const glm::dvec3 f = reference::eval_bsdf(bsdf, point, glm::normalize(wo), glm::normalize(wi));
+      EXPECT_NEAR(answers[k].f.y, f.y, 2e-3 * f.y + 1e-5 * scale) << "bsdf " << bsdf << " query " << k;
+      lit += f.y > 0 ? 1 : 0;
+      if (HasFailure()) return;
+    }
+    EXPECT_GT(lit, answers.size() / 16) << bsdf;
+  }
+}
+
 /// Albedo of one scattering at a rough interface: integral over the facets m of D m.z G1(wo) (wo.m) / (wo.z m.z) times
 /// what of the light leaves. Midpoint rule in the polar coordinates of slopes over alpha; below 1e-3 off.
 double rough_albedo(bool ggx, double alpha, double eta, double cos_o) {
