@@ -11,7 +11,7 @@ TACHYLITE_CONST uint kQueueRays1 = 1u;     // rays of odd bounces
 TACHYLITE_CONST uint kQueueEmitter = 2u;   // hits on area lights
 TACHYLITE_CONST uint kQueueEscaped = 3u;   // rays that left the scene, if it has an environment
 TACHYLITE_CONST uint kQueueSurface = 4u;   // first of one queue a material class
-TACHYLITE_CONST uint kMaxClasses = 24u;
+TACHYLITE_CONST uint kMaxClasses = 255u;    // as many as an entry of 8 bits tells apart (kClassNone)
 // After them, at kQueueSurface + number of classes: collisions in media, where there are any.
 TACHYLITE_CONST uint kMaxQueues = kQueueSurface + kMaxClasses + 1u;
 
