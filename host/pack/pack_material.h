@@ -21,7 +21,8 @@ struct PackedMaterials {
 };
 
 /// row_of_texture: for each of Scene::textures, its row in kBindTextures.
-/// Throws InputError for more than kMaterialMaxLeaves bsdfs in one blend, and for more than kMostFrames maps inside another.
+/// Throws InputError for more than kMaterialMaxLeaves bsdfs in one blend, more than kMostFrames maps inside one another
+/// and more than kMaxClasses classes.
 PackedMaterials pack_materials(const Scene& scene, std::span<const uint32_t> row_of_texture);
 
 /// What the name of a kernel that shades surfaces ends with in the variant for that class (cmake/BsdfVariants.cmake):

@@ -1,8 +1,8 @@
 // Normal and bump maps: a frame for the leaf that is turned against the shading frame, as Mitsuba 3.7's `normalmap`
 // and `bumpmap`. The two share Schuessler et al. 2017, "Microfacet-Based Normal Mapping for Robust Monte Carlo Path
 // Tracing" (turn normals that face away from wo), and Conty Estevez et al. 2019, "A Microfacet-Based Shadowing
-// Function to Solve the Bump Terminator Problem" (eq. 1 to 3). The frame of a map is the shading frame of the map inside
-// it; what the surface itself gives (derivatives, geometric normal) stays.
+// Function to Solve the Bump Terminator Problem" (eq. 1 to 3). The frame of a map is the shading frame of the map
+// inside it; what the surface itself gives (derivatives, geometric normal) stays.
 #ifndef TACHYLITE_BSDF_SHADING_MAP_GLSL
 #define TACHYLITE_BSDF_SHADING_MAP_GLSL
 #include "base/math.glsl"

@@ -212,7 +212,7 @@ TEST_F(BsdfIdentity, FlatMapsAreNothing) {
       for (int c = 0; c < 3; ++c) same = same && near(x[k].f[c], y[k].f[c]) && near(x[k].weight[c], y[k].weight[c]);
       if (pair.same) {
         ASSERT_TRUE(same) << pair.a << " is not " << pair.b << ", query " << k << ": f " << x[k].f.x << " " << y[k].f.x
-                          << ", pdf " << x[k].f_pdf << " " << y[k].f_pdf << ", sampled pdf " << x[k].pdf << " " << y[k].pdf
+                          << ", pdf " << x[k].f_pdf << " " << y[k].f_pdf << ", sampled " << x[k].pdf << " " << y[k].pdf
                           << ", weight " << x[k].weight.x << " " << y[k].weight.x;
       }
     }

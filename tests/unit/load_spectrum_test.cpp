@@ -99,8 +99,8 @@ TEST(LoadSpectrum, OtherConductors) {
   EXPECT_EQ(find_conductor("none")->k, dvec3(1));
   for (const char* unknown : {"au", "Ag_palik", "none_palik", "Na", "Ni", "V", "_palik", ""})
     EXPECT_FALSE(find_conductor(unknown)) << unknown;
-  for (const char* name : {"a-C", "AlAs_palik", "AlSb", "Be", "CsI", "Cu2O", "CuO", "d-C", "Hg", "HgTe", "K", "Li", "MgO",
-                           "Mo", "Na_palik", "Nb", "Ni_palik", "Rh", "Se", "SiC", "SnTe", "Ta", "Te", "ThF4", "TiC",
+  for (const char* name : {"a-C", "AlAs_palik", "AlSb", "Be", "CsI", "Cu2O", "CuO", "d-C", "Hg", "HgTe", "K", "Li",
+                           "MgO", "Mo", "Na_palik", "Nb", "Ni_palik", "Rh", "Se", "SiC", "SnTe", "Ta", "Te", "ThF4", "TiC",
                            "TiO2", "VC", "V_palik", "VN", "W"})
     EXPECT_TRUE(find_conductor(name)) << name;
 }
