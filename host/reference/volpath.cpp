@@ -152,7 +152,7 @@ dvec3 trace_volpath(const World& world, const Ray& camera_ray, MediumIndex mediu
     throughput *= sample->weight;
     eta *= sample->eta;
     ray = hit->spawn_ray(hit->frame.to_world(sample->wi));
-    if (sample->kind != Scattering::kNull) {
+    if (!goes_straight(sample->kind)) {
       ++depth;
       previous_p = hit->p;
       previous_pdf = sample->pdf;

@@ -52,7 +52,10 @@ struct ShadingPoint {
 };
 ShadingPoint shading_point(const Materials& materials, const SurfacePoint& surface);
 
-enum class Scattering { kSmooth, kDelta, kNull };  // kNull: straight through, wi = -wo
+/// kNull: straight through, wi = -wo, where there is nothing. kPane: straight through thin glass, which differs from
+/// kNull only under normal and bump maps.
+enum class Scattering { kSmooth, kDelta, kNull, kPane };
+inline bool goes_straight(Scattering kind) { return kind == Scattering::kNull || kind == Scattering::kPane; }
 struct BsdfSample {
   dvec3 wi{0};
   dvec3 weight{0};

@@ -52,7 +52,7 @@ std::optional<BsdfSample> sample_perturbed(const Kind& bsdf, const ShadingPoint&
     sample->wi = -wo;
     return sample;
   }
-  sample->wi = perturbed.frame.to_world(sample->wi);
+  sample->wi = sample->kind == Scattering::kPane ? -wo : perturbed.frame.to_world(sample->wi);
   if (!sides_agree(perturbed, sample->wi)) return std::nullopt;
   sample->weight *= shadowing(bsdf.use_shadowing_function, perturbed, sample->wi);
   return sample;

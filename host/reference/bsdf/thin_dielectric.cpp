@@ -18,7 +18,7 @@ std::optional<BsdfSample> sample_bsdf(const ThinDielectricBsdf& bsdf, const Shad
   if (random.uniform() < r) {
     return BsdfSample{{-wo.x, -wo.y, wo.z}, point.color(bsdf.specular_reflectance), r, Scattering::kDelta};
   }
-  return BsdfSample{-wo, point.color(bsdf.specular_transmittance), 1 - r, Scattering::kNull};
+  return BsdfSample{-wo, point.color(bsdf.specular_transmittance), 1 - r, Scattering::kPane};
 }
 
 double pdf_bsdf(const ThinDielectricBsdf&, const ShadingPoint&, const dvec3&, const dvec3&) {
