@@ -24,6 +24,8 @@
 #include "measure/report_text.h"
 #include "measure/scaling.h"
 #include "measure/scene_renders.h"
+#include "pack/bake_geometry.h"
+#include "vulkan/vector_width.h"
 
 namespace tachylite {
 namespace {
@@ -126,12 +128,15 @@ int run_bench(const BenchArguments& arguments) {
   for (const std::string& text : arguments.externals) externals.push_back(parse_external(text));
   std::optional<Report> baseline;
   if (!arguments.against.empty()) baseline = read_report(arguments.against);
+  bool all_baked = arguments.scaling.empty();
   for (const std::filesystem::path& file : arguments.scenes) {
     SceneArguments which = arguments.scene;
     which.file = file;
-    load_scene_of(which);
+    const Scene scene = load_scene_of(which);
+    all_baked = all_baked && pack_if_baked(scene, which.sensor);
   }
 
+  if (all_baked) vulkan::prefer_wide_vectors();
   vulkan::Device device(device_options(arguments.device));
   Report report;
   report.version = TACHYLITE_VERSION;

@@ -9,7 +9,9 @@
 #include "base/progress.h"
 #include "command_device.h"
 #include "command_interrupt.h"
+#include "pack/bake_geometry.h"
 #include "vulkan/check.h"
+#include "vulkan/vector_width.h"
 
 namespace tachylite {
 namespace {
@@ -157,13 +159,14 @@ int run_render(const RenderArguments& arguments) {
   };
 
   std::optional<FilmBuffer> film;
-  std::optional<PackedScene> packed;
+  std::optional<PackedScene> packed = pack_if_baked(scene, arguments.scene.sensor);
+  if (packed) vulkan::prefer_wide_vectors();
   FinishedRender finished{.film = FilmBuffer(1, 1)};
   const auto attempt = [&] {
     vulkan::Device device(device_options(arguments.device));
-    if (!packed) {
+    if (!film) {
       log_info(fmt::format("{}; on {}", summarize(scene, arguments.scene.sensor), describe(device.info())));
-      packed = pack_scene(scene, arguments.scene.sensor);
+      if (!packed) packed = pack_scene(scene, arguments.scene.sensor);
       const vulkan::DeviceInfo& info = device.info();
       finished.identity = render_identity(scene, arguments.scene.sensor, options.seed,
                                           options.sampler == SamplerKind::kSobol ? "sobol" : "independent", info.name,

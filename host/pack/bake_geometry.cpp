@@ -213,4 +213,16 @@ std::optional<BakedGeometry> bake_geometry(const PackedScene& scene) {
   return std::nullopt;
 }
 
+std::optional<PackedScene> pack_if_baked(const Scene& scene, int sensor) {
+  size_t primitives = 0;
+  for (const Shape& shape : scene.shapes) {
+    const auto* mesh = std::get_if<MeshShape>(&shape.kind);
+    primitives += mesh ? mesh->mesh->triangles.size() : 1;
+  }
+  if (primitives > 2 * gpu::kMaxBaked) return std::nullopt;  // pairs of triangles at best
+  std::optional<PackedScene> packed = pack_scene(scene, sensor);
+  if (!bake_geometry(*packed)) packed.reset();
+  return packed;
+}
+
 }  // namespace tachylite

@@ -11,6 +11,7 @@
 #include "bench/scenes.h"
 #include "scene/load_xml.h"
 #include "support/render_test.h"
+#include "vulkan/vector_width.h"
 #include "wavefront/renderer.h"
 
 namespace tachylite::bench {
@@ -99,6 +100,7 @@ PathsResult bench_paths(int repetitions) {
   const Scene scene = load_scene(std::string(TACHYLITE_SOURCE_DIR) + "/scenes/cornell-box/scene.xml", load);
   const PackedScene packed = pack_scene(scene);
   const EmbreePaths embree(scene, packed);
+  vulkan::prefer_wide_vectors();
   vulkan::Device device;
   RenderOptions options;
   options.samples = kSamples;

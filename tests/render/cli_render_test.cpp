@@ -15,6 +15,7 @@
 namespace tachylite::test {
 namespace {
 
+constexpr const char* kWidth = "LP_NATIVE_VECTOR_WIDTH";
 const std::string kScene = TACHYLITE_SOURCE_DIR "/scenes/cornell-box/scene.xml";
 
 class CliRender : public ProgramTest, public ::testing::WithParamInterface<const char*> {
@@ -98,6 +99,25 @@ TEST_P(CliRender, SceneGivesTheSamplesAndAFlagWins) {
   EXPECT_EQ(read_exr(folder / "a.exr").metadata.at("spp"), "12");
   ASSERT_EQ(render({"-D", "spp=12", "--spp", "8", "-o", "b.exr"}).exit_code, 0);
   EXPECT_EQ(read_exr(folder / "b.exr").metadata.at("spp"), "8");
+}
+
+// What one kernel renders takes vectors of 512 bits where the CPU has them, from a shader cache of its own.
+TEST_P(CliRender, WidthOfVectorsChangesNoBit) {
+  if (!on_device()) GTEST_SKIP() << "the reference has no vectors";
+  const auto run = [&](const std::string& name, std::vector<std::string> options, ProgramOptions how) {
+    options.insert(options.end(), {"--spp", "8", "-o", name + ".exr"});
+    how.environment.emplace_back("MESA_SHADER_CACHE_DIR", (folder / name).string());
+    EXPECT_EQ(render(options, kScene, how).exit_code, 0);
+    return read_exr(folder / (name + ".exr"));
+  };
+  const Image chosen = run("chosen", {}, {}), given = run("given", {}, {.environment = {{kWidth, "256"}}});
+  run("stages", {"--aov", "depth"}, {});
+  EXPECT_EQ(chosen.channels, given.channels);
+  EXPECT_FALSE(std::filesystem::exists(folder / "given/vectors-512"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "stages/vectors-512"));
+  const bool lavapipe = chosen.metadata.at("device").starts_with("llvmpipe");
+  if (lavapipe && __builtin_cpu_supports("avx512f"))
+    EXPECT_FALSE(std::filesystem::is_empty(folder / "chosen/vectors-512"));
 }
 
 TEST_P(CliRender, SeedDecidesTheImage) {
