@@ -192,7 +192,8 @@ PackedScene pack_scene(const Scene& scene, int sensor_index) {
     if (shape.is_medium_boundary) flags |= gpu::kShapeIsBoundary;
     out.shapes.push_back(uvec4(materials.row_of_bsdf[bsdf], lights.light_of_shape[s], flags,
                                media.index(shape.interior) | media.index(shape.exterior) << 16));
-    out.shapes.push_back(uvec4(range.first_primitive, range.primitive_count, gpu::kNoIndex, 0));
+    const uint32_t triangles = std::holds_alternative<RectangleShape>(shape.kind) ? 2 : 1;  // a primitive
+    out.shapes.push_back(uvec4(range.first_primitive, range.primitive_count, gpu::kNoIndex, triangles));
   }
   mark_leaves(scene, geometry, class_of_shape, shape_emits, out);
   put_vertices(geometry, out);

@@ -49,8 +49,9 @@ void main() {
       sums[kAovShNormal] += it.n_s;
       sums[kAovDpDu] += it.dp_du;
       sums[kAovDpDv] += it.dp_dv;
+      uvec4 primitives = load_shape(it.shape + 1u);
       sums[kAovPrimIndex] += it.point.primitive == kNoIndex
-                                 ? 0.0 : float(it.point.primitive - load_shape(it.shape + 1u).x);
+                                 ? 0.0 : float((it.point.primitive - primitives.x) / primitives.w);
       sums[kAovShapeIndex] += float(it.shape / kShapeRows);
       if (has_aov(kAovAlbedo)) sums[kAovAlbedo] += material_albedo(it, -d);
     }

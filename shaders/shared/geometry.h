@@ -10,7 +10,8 @@
 // Shape (kBindShapes), kShapeRows rows of uvec4:
 //   row 0: material (first row in kBindMaterials); light (first row in kBindLights, kNoIndex when none); flags;
 //          medium pair: interior | exterior << 16 (0xffff: none)
-//   row 1: first primitive; number of primitives; attribute row of the mesh; unused
+//   row 1: first primitive; number of primitives; attribute row of the mesh; triangles that count as one primitive
+//          outside: 2 of rectangles, else 1
 #ifndef TACHYLITE_SHARED_GEOMETRY_H
 #define TACHYLITE_SHARED_GEOMETRY_H
 #include "interop.h"

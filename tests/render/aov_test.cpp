@@ -90,6 +90,8 @@ void expect_closed_forms(const Image& image, double wander) {
     EXPECT_NEAR(channel("depth.Z")[pixel], 2.5, 1e-5);
     EXPECT_EQ(channel("dd.T")[pixel], channel("depth.Z")[pixel]);
     EXPECT_EQ(channel("shape_index.I")[pixel], static_cast<float>(i));
+    for (const size_t p : {pixel, pixel + 1, pixel + static_cast<size_t>(image.width)})  // in both of its triangles
+      EXPECT_EQ(channel("prim_index.I")[p], 0);
     EXPECT_EQ(channel("sample_count.I")[pixel], 64);
     // Those that vary over the pixel, which is 1/2 wide.
     const double left = 2.0 * static_cast<double>(i) - static_cast<double>(squares().size());

@@ -103,17 +103,11 @@ TEST_F(BsdfEnergy, ValuesAreThoseOfTheReference) {
 }
 
 /// The same of normal maps, alone and in one another, with what may stand between them; bump maps need a surface:
-/// tests/render/nested_tiles_test.cpp.
+/// tests/render/tiles_test.cpp.
 TEST_F(BsdfEnergy, NestedMapsAreThoseOfTheReference) {
   Scene scene;
-  const auto texture = [&](const dvec3& value) {
-    scene.textures.push_back({{}, dmat3(1), CheckerboardTexture{value, value}});
-    return static_cast<TextureIndex>(scene.textures.size()) - 1;
-  };
-  const auto add = [&](const BsdfKind& kind) {
-    scene.bsdfs.push_back({.kind = kind});
-    return static_cast<BsdfIndex>(scene.bsdfs.size()) - 1;
-  };
+  const auto texture = [&](const dvec3& value) { return add_constant_texture(scene, value); };
+  const auto add = [&](const BsdfKind& kind) { return add_bsdf(scene, kind); };
   const TextureIndex first = texture({0.7, 0.35, 0.85}), second = texture({0.3, 0.45, 0.9});
   std::vector<BsdfIndex> asked;
   const BsdfIndex metal = add(RoughConductorBsdf{{MicrofacetDistribution::kGgx, 0.6, 0.2}});

@@ -82,10 +82,7 @@ TEST_F(BsdfIdentity, MaskAndBlendAtTheirEnds) {
 // material come by different ways, so that isotropic = anisotropic with equal alphas, too.
 TEST_F(BsdfIdentity, ConstantTextureIsItsValue) {
   Scene scene;
-  const auto add = [&](double value) {
-    scene.textures.push_back({{}, dmat3(1), CheckerboardTexture{dvec3(value), dvec3(value)}});
-    return static_cast<TextureIndex>(scene.textures.size()) - 1;
-  };
+  const auto add = [&](double value) { return add_constant_texture(scene, dvec3(value)); };
   const auto color = [&](double value) {
     ColorInput input(value);
     input.texture = add(value);
@@ -167,14 +164,8 @@ TEST_F(BsdfIdentity, ConstantTextureIsItsValue) {
 // Flat normal and bump maps turn nothing, alone or inside or around another map; and a map that turns is not nothing.
 TEST_F(BsdfIdentity, FlatMapsAreNothing) {
   Scene scene;
-  const auto texture = [&](const dvec3& value) {
-    scene.textures.push_back({{}, dmat3(1), CheckerboardTexture{value, value}});
-    return static_cast<TextureIndex>(scene.textures.size()) - 1;
-  };
-  const auto add = [&](const BsdfKind& kind) {
-    scene.bsdfs.push_back({.kind = kind});
-    return static_cast<BsdfIndex>(scene.bsdfs.size()) - 1;
-  };
+  const auto texture = [&](const dvec3& value) { return add_constant_texture(scene, value); };
+  const auto add = [&](const BsdfKind& kind) { return add_bsdf(scene, kind); };
   const TextureIndex up = texture({0.5, 0.5, 1}), turned = texture({0.65, 0.4, 0.9}), height = texture(dvec3(0.3));
   const auto flat = [&](BsdfIndex child) { return add(NormalMapBsdf{child, up}); };
   const auto bump = [&](BsdfIndex child) { return add(BumpMapBsdf{child, height, 2.0}); };

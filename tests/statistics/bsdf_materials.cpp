@@ -129,4 +129,14 @@ std::vector<MaterialCase> rough_materials() {
   return cases;
 }
 
+BsdfIndex add_bsdf(Scene& scene, const BsdfKind& kind) {
+  scene.bsdfs.push_back({.kind = kind});
+  return static_cast<BsdfIndex>(scene.bsdfs.size()) - 1;
+}
+
+TextureIndex add_constant_texture(Scene& scene, const dvec3& value) {
+  scene.textures.push_back({{}, dmat3(1), CheckerboardTexture{value, value}});
+  return static_cast<TextureIndex>(scene.textures.size()) - 1;
+}
+
 }  // namespace tachylite::test

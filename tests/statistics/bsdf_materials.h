@@ -28,4 +28,8 @@ std::vector<MaterialCase> coated_materials();
 /// The rough ones over distribution, roughness and eta.
 std::vector<MaterialCase> rough_materials();
 
+/// Adds to the scene, and returns the index there.
+BsdfIndex add_bsdf(Scene& scene, const BsdfKind& kind);
+TextureIndex add_constant_texture(Scene& scene, const dvec3& value);
+
 }  // namespace tachylite::test

@@ -7,6 +7,7 @@
 #include "image/compare.h"
 #include "pack/bake_geometry.h"
 #include "reference/reference.h"
+#include "stress/compare_aovs.h"
 #include "support/render_test.h"
 
 namespace tachylite::test {
@@ -21,6 +22,27 @@ class Judge {
   Judge(vulkan::Device& device, const Scene& scene, const JudgeOptions& options)
       : device_(device), scene_(scene), packed_(pack_scene(scene)), options_(options) {}
 
+  /// First what is cheap.
+  void compare_auxiliary_channels(Judgement& judgement) {
+    if (scene_.integrator.aovs.empty()) return;
+    Scene first_hits = scene_;
+    first_hits.integrator.max_depth = 1;
+    first_hits.integrator.moment = false;
+    const PackedScene packed = pack_scene(first_hits);
+    AovReplicates a, b;
+    for (uint32_t attempt = 0; attempt < 3; ++attempt) {
+      for (uint32_t i = 0; i < kAovReplicates; ++i) {
+        const uint32_t seed = kAovReplicates * (3 * options_.seed + attempt) + i;
+        a.at(i) = on_device(packed, kAovSamples, seed, KernelStructure::kStages).to_image();
+        b.at(i) = on_reference(first_hits, kAovSamples, seed);
+      }
+      const std::string difference = compare_aovs(a, b);
+      if (difference.empty()) return;
+      judgement.message = difference;
+    }
+    judgement.verdict = Judgement::Verdict::kDiffer;
+  }
+
   void compare(Judgement& judgement) {
     constexpr double kLevels[] = {1e-2, 1e-2, 1e-3};
     for (uint64_t pair = 0; pair < std::size(kLevels); ++pair) {
@@ -28,7 +50,8 @@ class Judge {
       test.level = kLevels[pair];
       const uint64_t samples = options_.samples << 2 * pair;
       const auto seed = static_cast<uint32_t>(3 * options_.seed + pair);
-      const Image a = on_device(samples, seed, KernelStructure::kStages).to_image(), b = on_reference(samples, seed);
+      const Image a = on_device(packed_, samples, seed, KernelStructure::kStages).to_image();
+      const Image b = on_reference(scene_, samples, seed);
       const Comparison comparison = compare_images(a, b, layer_variance(a, b), test);
       judgement.pairs = static_cast<int>(pair) + 1;
       judgement.samples = samples;
@@ -43,8 +66,8 @@ class Judge {
   void compare_structures() {
     if (!bake_geometry(packed_)) return;
     constexpr uint64_t kSamples = 16;
-    const FilmBuffer fused = on_device(kSamples, options_.seed, KernelStructure::kFused);
-    const FilmBuffer stages = on_device(kSamples, options_.seed, KernelStructure::kStages);
+    const FilmBuffer fused = on_device(packed_, kSamples, options_.seed, KernelStructure::kFused);
+    const FilmBuffer stages = on_device(packed_, kSamples, options_.seed, KernelStructure::kStages);
     const int pixels = fused.width() * fused.height();
     int different = 0;
     for (int i = 0; i < pixels; ++i) {
@@ -56,13 +79,15 @@ class Judge {
   }
 
  private:
-  FilmBuffer on_device(uint64_t samples, uint32_t seed, KernelStructure structure) {
+  static constexpr uint64_t kAovSamples = 32;
+
+  FilmBuffer on_device(const PackedScene& packed, uint64_t samples, uint32_t seed, KernelStructure structure) {
     RenderOptions render;
     render.samples = samples;
     render.seed = seed;
     render.structure = structure;
     const size_t messages = device_.validation_messages().size();
-    Renderer renderer(device_, packed_, render);
+    Renderer renderer(device_, packed, render);
     FilmBuffer film = renderer.render();
     const RenderStatistics& statistics = renderer.statistics();
     if (statistics.nonfinite) throw Defect{fmt::format("{} values are not finite", statistics.nonfinite)};
@@ -72,11 +97,11 @@ class Judge {
     return film;
   }
 
-  Image on_reference(uint64_t samples, uint32_t seed) const {
+  static Image on_reference(const Scene& scene, uint64_t samples, uint32_t seed) {
     ReferenceOptions render;
     render.samples = samples;
     render.seed = seed + 0x40000000u;
-    const ReferenceImage image = render_reference(scene_, render);
+    const ReferenceImage image = render_reference(scene, render);
     if (image.nonfinite) throw Defect{fmt::format("{} samples of the reference are not finite", image.nonfinite)};
     return to_image(image);
   }
@@ -103,7 +128,8 @@ Judgement judge_scene(vulkan::Device& device, const SceneText& text, const Judge
   try {
     const Scene scene = scene_from_elements(text.xml(), text.files);
     Judge judge(device, scene, options);
-    judge.compare(judgement);
+    judge.compare_auxiliary_channels(judgement);
+    if (!judgement.failed()) judge.compare(judgement);
     if (options.structures && !judgement.failed()) judge.compare_structures();
   } catch (const InputError& error) {
     judgement.verdict = Judgement::Verdict::kRefused;

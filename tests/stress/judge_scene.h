@@ -14,7 +14,7 @@ struct Judgement {
   enum class Verdict {
     kAgree,
     kRefused,  // the scene cannot be read or rendered, with a message that says why
-    kDiffer,   // three independent pairs of images differ
+    kDiffer,   // three independent pairs of images, or their auxiliary channels, differ
     kDefect    // values dropped, a validation message, an error, or stages and the fused kernel disagree
   };
   Verdict verdict = Verdict::kAgree;

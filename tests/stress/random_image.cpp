@@ -2,6 +2,7 @@
 #include <bit>
 #include <cmath>
 
+#include "stress/image_files.h"
 #include "stress/random_scene.h"
 
 namespace tachylite::test {
@@ -36,9 +37,30 @@ std::string radiance(int width, int height, const std::vector<float>& rgb) {
   return bytes;
 }
 
+/// An EXR or PNG of any of their kinds.
+std::string other_image(RandomSource& random, SceneText& scene, double low, double high, bool grey, bool floats) {
+  const int width = random.number(1, 9), height = random.number(1, 9);
+  std::string name = fmt::format("image{}.{}", scene.files.size(), floats ? "exr" : "png");
+  const bool alpha = !floats && random.chance(0.3), fine = random.chance(0.5);
+  const int channels = (grey ? 1 : 3) + alpha;
+  const int texels = width * height * channels;
+  if (floats) {
+    std::vector<float> values;
+    for (int i = 0; i < texels; ++i) values.push_back(static_cast<float>(random.uniform(low, high)));
+    scene.files.emplace_back(name, exr_file(width, height, channels, !fine, values));
+  } else {
+    std::vector<uint16_t> values;
+    for (int i = 0; i < texels; ++i)
+      values.push_back(static_cast<uint16_t>(std::lround((fine ? 65535 : 255) * std::clamp(random.uniform(low, high), 0.0, 1.0))));
+    scene.files.emplace_back(name, png_file(width, height, channels, fine ? 16 : 8, values));
+  }
+  return name;
+}
+
 }  // namespace
 
 std::string random_image(RandomSource& random, SceneText& scene, double low, double high, bool grey, bool floats) {
+  if (random.wide() && random.chance(0.6)) return other_image(random, scene, low, high, grey, floats);
   const int width = random.number(2, 7), height = random.number(2, 7);
   const auto texels = static_cast<size_t>(width * height);
   std::string name = fmt::format("image{}.{}", scene.files.size(), floats ? "hdr" : "tga");

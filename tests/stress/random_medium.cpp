@@ -71,4 +71,34 @@ Element random_medium(RandomSource& random, SceneText& scene, const std::string&
   return medium;
 }
 
+void add_nested_media(RandomSource& random, SceneText& scene) {
+  const double size = random.uniform(0.6, 1);
+  const glm::dvec3 centre(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5));
+  const auto closed = [&](double scale, const glm::dvec3& offset) {
+    Element place = {"transform", {{"name", "to_world"}}, {}};
+    place.add({"scale", {{"value", fmt::format("{:.5g}", scale)}}, {}});
+    const glm::dvec3 p = centre + offset;
+    place.add({"translate", {{"value", fmt::format("{:.5g}, {:.5g}, {:.5g}", p.x, p.y, p.z)}}, {}});
+    return plugin("shape", random.pick({"sphere", "cube"})).add(place);
+  };
+  const auto surface = [&](Element& shape) {
+    if (random.chance(0.6)) return shape.add(plugin("bsdf", "null"));
+    return shape.add(plugin("bsdf", random.pick({"dielectric", "roughdielectric", "diffuse"})));
+  };
+  Element outside = random_medium(random, scene, "interior");
+  outside.attributes[0] = {"id", "outside"};
+  scene.elements.push_back(outside);
+  Element shell = closed(size, glm::dvec3(0));
+  shell.add({"ref", {{"id", "outside"}, {"name", "interior"}}, {}});
+  scene.elements.push_back(surface(shell));
+  const int count = random.between(1, 2);
+  for (int i = 0; i < count; ++i) {
+    // Within the ball of half the shell's size, and apart from each other.
+    Element shape = closed(size * random.uniform(0.1, 0.2), glm::dvec3(0.22 * size * (2 * i - 1), 0, 0));
+    if (random.chance(0.7)) shape.add(random_medium(random, scene, "interior"));
+    shape.add({"ref", {{"id", "outside"}, {"name", "exterior"}}, {}});
+    scene.elements.push_back(surface(shape));
+  }
+}
+
 }  // namespace tachylite::test

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "stress/scale_scene.h"
+
 namespace tachylite::test {
 namespace {
 
@@ -23,6 +25,16 @@ Element integrator(RandomSource& random, bool media) {
     element.add(integer("rr_depth", random.chance(0.5) ? random.between(1, 6) : 1000));
   }
   if (random.chance(0.15)) element.add(boolean("hide_emitters", true));
+  if (!random.wide()) return element;
+  // `direct` says so by its numbers of samples.
+  if (*element.attribute("type") != "direct" && random.chance(0.25))
+    element.add(word("sampling", random.pick({"emitter", "bsdf"})));
+  if (random.chance(0.15)) element = plugin("integrator", "moment").add(element);
+  if (random.chance(0.5))
+    element = plugin("integrator", "aov")
+                  .add(word("aovs", "albedo, depth, position, sh_normal, geo_normal, uv, dp_du, dp_dv, prim_index, "
+                                    "shape_index, sample_count"))
+                  .add(element);
   return element;
 }
 
@@ -102,7 +114,7 @@ void add_surroundings(RandomSource& random, SceneText& scene) {
 }  // namespace
 
 SceneText random_scene(uint64_t seed) {
-  RandomSource random(seed / kScenesOfTheme + 1, seed + 1);
+  RandomSource random(seed / kScenesOfTheme + 1, seed + 1, seed >= kFirstWideSeed);
   SceneText scene;
   const bool media = random.chance(0.35);
   const bool fog = media && random.chance(0.2);  // around the camera
@@ -120,6 +132,7 @@ SceneText random_scene(uint64_t seed) {
   }
   add_surroundings(random, scene);
   add_objects(random, scene, media);
+  if (random.wide() && media && !fog && random.chance(0.6)) add_nested_media(random, scene);
   bool has_environment = false;
   if (random.chance(0.3)) {  // some light everywhere
     has_environment = true;
@@ -127,6 +140,7 @@ SceneText random_scene(uint64_t seed) {
   }
   const int lights = random.chance(0.1) ? random.between(4, 20) : random.between(1, 3);
   for (int i = 0; i < lights; ++i) add_random_light(random, scene, has_environment);
+  if (random.wide() && random.chance(0.5)) scale_scene(scene, random.log_uniform(1e-3, 1e4));
   return scene;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
 // Scenes made at random from everything that the scene format knows: shapes and small meshes, materials with adapters
-// around them, textures, homogeneous and grid media, lights, cameras, filters and integrators.
+// around them, textures, homogeneous and grid media, lights, cameras, filters and integrators. From kFirstWideSeed on
+// also auxiliary channels, ways to sample light, PNG and EXR files, media within media, and scenes a thousand times
+// smaller to ten thousand times larger.
 
 #include <cstdint>
 #include <string>
@@ -14,7 +16,11 @@ namespace tachylite::test {
 /// Seeds with one quotient share a theme (random_source.h).
 constexpr uint64_t kScenesOfTheme = 16;
 
-/// The same on every machine. About the unit ball, the camera 2.5 to 5 away from the centre.
+/// Seeds below have made their scenes since before there were others, and still do.
+constexpr uint64_t kFirstWideSeed = 10'000'000;
+
+/// The same on every machine. About the unit ball (but for what scale_scene does to it), the camera 2.5 to 5 away from
+/// the centre.
 SceneText random_scene(uint64_t seed);
 
 // The parts, a file each.
@@ -46,5 +52,7 @@ void add_random_light(RandomSource& random, SceneText& scene, bool& has_environm
 
 /// <medium name="side">
 Element random_medium(RandomSource& random, SceneText& scene, const std::string& side);
+/// Adds a closed shape with a medium, and within it others that name it as their exterior.
+void add_nested_media(RandomSource& random, SceneText& scene);
 
 }  // namespace tachylite::test

@@ -14,7 +14,11 @@ namespace tachylite::test {
 /// that kernels compiled for one serve all of them.
 class RandomSource {
  public:
-  RandomSource(uint64_t theme, uint64_t scene) : kind_(theme), value_(scene) {}
+  RandomSource(uint64_t theme, uint64_t scene, bool wide) : wide_(wide), kind_(theme), value_(scene) {}
+
+  /// Whether the scene may have what the first generator lacked. Only then may that draw numbers, or old seeds would
+  /// no longer make their scenes.
+  bool wide() const { return wide_; }
 
   // From the theme.
   bool chance(double probability) { return kind_.uniform() < probability; }
@@ -36,6 +40,7 @@ class RandomSource {
   std::string point(double low, double high) { return rgb(low, high); }
 
  private:
+  bool wide_;
   Pcg32 kind_, value_;
 };
 
