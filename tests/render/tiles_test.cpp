@@ -10,6 +10,7 @@
 
 #include "reference/reference.h"
 #include "support/chi2.h"
+#include "support/image_files.h"
 #include "support/render_test.h"
 
 namespace tachylite::test {
@@ -25,21 +26,19 @@ using Files = std::vector<std::pair<std::string, std::string>>;
 
 std::string bytes16(int value) { return {static_cast<char>(value & 255), static_cast<char>(value >> 8)}; }
 
-/// Targa of 8 bits, uncompressed, rows from the top; its texels differ from each other and between channels.
+/// A Targa whose texels differ from each other and between channels.
 std::string targa(int width, int height, int channels, int low, int high) {
-  std::string file = {0, 0, static_cast<char>(channels == 1 ? 3 : 2), 0, 0, 0, 0, 0, 0, 0, 0, 0};
-  file += bytes16(width) + bytes16(height) + static_cast<char>(8 * channels) + static_cast<char>(0x20);
-  for (int i = 0; i < width * height * channels; ++i) file += static_cast<char>(low + i * 7919 % (high - low));
-  return file;
+  std::vector<uint8_t> texels;
+  for (int i = 0; i < width * height * channels; ++i)
+    texels.push_back(static_cast<uint8_t>(low + i * 7919 % (high - low)));
+  return tga_file(width, height, channels, texels);
 }
 
-/// Radiance HDR of less than 8 columns, which is never run-length coded.
 std::string radiance(int width, int height) {
-  std::string file = fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", height, width);
+  std::vector<float> rgb;
   for (int i = 0; i < width * height; ++i)
-    for (const int byte : {40 + i * 53 % 180, 40 + i * 97 % 180, 40 + i * 31 % 180, 128})
-      file += static_cast<char>(byte);
-  return file;
+    for (const int step : {53, 97, 31}) rgb.push_back(static_cast<float>(40 + i * step % 180) / 256);
+  return hdr_file(width, height, rgb);
 }
 
 /// Bitmap of Windows, 24 bits, rows from the bottom.

@@ -1,41 +1,11 @@
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
-#include "stress/image_files.h"
 #include "stress/random_scene.h"
+#include "support/image_files.h"
 
 namespace tachylite::test {
 namespace {
-
-void append16(std::string& bytes, int value) {
-  bytes += static_cast<char>(value & 255);
-  bytes += static_cast<char>(value >> 8);
-}
-
-/// Targa of 8 bits, uncompressed, rows from the top.
-std::string targa(int width, int height, bool grey, const std::vector<uint8_t>& texels) {
-  std::string bytes = {0, 0, static_cast<char>(grey ? 3 : 2), 0, 0, 0, 0, 0, 0, 0, 0, 0};
-  append16(bytes, width);
-  append16(bytes, height);
-  bytes += static_cast<char>(grey ? 8 : 24);
-  bytes += static_cast<char>(0x20);
-  return bytes.append(texels.begin(), texels.end());
-}
-
-/// Radiance HDR without run lengths, which is what readers take where width < 8.
-std::string radiance(int width, int height, const std::vector<float>& rgb) {
-  std::string bytes = fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", height, width);
-  for (size_t i = 0; i < rgb.size(); i += 3) {
-    const float largest = std::max({rgb[i], rgb[i + 1], rgb[i + 2]});
-    int exponent = 0;
-    std::frexp(largest, &exponent);
-    for (size_t c = 0; c < 3; ++c)
-      bytes += static_cast<char>(largest > 0 ? static_cast<int>(std::ldexp(rgb[i + c], 8 - exponent)) : 0);
-    bytes += static_cast<char>(largest > 0 ? exponent + 128 : 0);
-  }
-  return bytes;
-}
 
 /// An EXR or PNG of any of their kinds.
 std::string other_image(RandomSource& random, SceneText& scene, double low, double high, bool grey, bool floats) {
@@ -50,8 +20,10 @@ std::string other_image(RandomSource& random, SceneText& scene, double low, doub
     scene.files.emplace_back(name, exr_file(width, height, channels, !fine, values));
   } else {
     std::vector<uint16_t> values;
-    for (int i = 0; i < texels; ++i)
-      values.push_back(static_cast<uint16_t>(std::lround((fine ? 65535 : 255) * std::clamp(random.uniform(low, high), 0.0, 1.0))));
+    for (int i = 0; i < texels; ++i) {
+      const double value = std::clamp(random.uniform(low, high), 0.0, 1.0);
+      values.push_back(static_cast<uint16_t>(std::lround((fine ? 65535 : 255) * value)));
+    }
     scene.files.emplace_back(name, png_file(width, height, channels, fine ? 16 : 8, values));
   }
   return name;
@@ -67,12 +39,12 @@ std::string random_image(RandomSource& random, SceneText& scene, double low, dou
   if (floats) {
     std::vector<float> rgb(3 * texels);
     for (float& value : rgb) value = static_cast<float>(random.uniform(low, high));
-    scene.files.emplace_back(name, radiance(width, height, rgb));
+    scene.files.emplace_back(name, hdr_file(width, height, rgb));
   } else {
     std::vector<uint8_t> bytes((grey ? 1 : 3) * texels);
     for (uint8_t& byte : bytes)
       byte = static_cast<uint8_t>(std::lround(255 * std::clamp(random.uniform(low, high), 0.0, 1.0)));
-    scene.files.emplace_back(name, targa(width, height, grey, bytes));
+    scene.files.emplace_back(name, tga_file(width, height, grey ? 1 : 3, bytes));
   }
   return name;
 }

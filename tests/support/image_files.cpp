@@ -1,9 +1,11 @@
-#include "stress/image_files.h"
+#include "support/image_files.h"
 
-#include <array>
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <string_view>
 
+#include <fmt/format.h>
 #include <glm/gtc/packing.hpp>
 
 namespace tachylite::test {
@@ -116,6 +118,28 @@ std::string exr_file(int width, int height, int channels, bool half, const std::
       }
   }
   return exr;
+}
+
+std::string tga_file(int width, int height, int channels, const std::vector<uint8_t>& texels) {
+  std::string tga = {0, 0, static_cast<char>(channels == 1 ? 3 : 2), 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  append_little(tga, static_cast<uint16_t>(width));
+  append_little(tga, static_cast<uint16_t>(height));
+  tga += static_cast<char>(8 * channels);
+  tga += static_cast<char>(0x20);  // rows from the top
+  return tga.append(texels.begin(), texels.end());
+}
+
+std::string hdr_file(int width, int height, const std::vector<float>& rgb) {
+  std::string hdr = fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", height, width);
+  for (size_t i = 0; i < rgb.size(); i += 3) {
+    const float largest = std::max({rgb[i], rgb[i + 1], rgb[i + 2]});
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    for (size_t c = 0; c < 3; ++c)
+      hdr += static_cast<char>(largest > 0 ? static_cast<int>(std::ldexp(rgb[i + c], 8 - exponent)) : 0);
+    hdr += static_cast<char>(largest > 0 ? exponent + 128 : 0);
+  }
+  return hdr;
 }
 
 }  // namespace tachylite::test
