@@ -13,7 +13,6 @@
 namespace tachylite {
 namespace {
 
-constexpr size_t kGrain = 1 << 14;
 constexpr double kMaxAreaRatio = 1.0;  // of a pair's box to the boxes of its triangles
 
 Box box_of(const glm::dvec3& lo, const glm::dvec3& hi) {
@@ -74,7 +73,7 @@ LeafVertices pair_vertices(const BvhInput& input, const TrianglePair& pair) {
 
 std::vector<BinaryNode> bound_primitives(const BvhInput& input, const std::vector<TrianglePair>& pairs) {
   std::vector<BinaryNode> primitives(pairs.size() + input.curved.size());
-  parallel_for(0, primitives.size(), kGrain, [&](size_t first, size_t last) {
+  parallel_for(0, primitives.size(), kMeshGrain, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       Box b;
       if (i < pairs.size())
@@ -96,7 +95,7 @@ void write_leaves(const BvhInput& input, const std::vector<TrianglePair>& pairs,
   const auto pair_at = [&](size_t i, size_t last) -> const TrianglePair* {
     return i < last && leaf_primitives[i] < pairs.size() ? &pairs[leaf_primitives[i]] : nullptr;
   };
-  parallel_for(0, leaf_primitives.size(), kGrain, [&](size_t first, size_t last) {
+  parallel_for(0, leaf_primitives.size(), kMeshGrain, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       // Leaves are in the order of the tree, which the mesh need not have: ask for its parts ahead of time.
       constexpr size_t kAhead = 16;

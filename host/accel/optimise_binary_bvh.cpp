@@ -20,12 +20,12 @@ class Reinserter {
   /// Moves only the children of the `most` largest nodes.
   Reinserter(std::vector<BinaryNode>& nodes, size_t most)
       : nodes_(nodes), parents_(nodes.size() / 2, 0), settled_(nodes.size(), 0), touched_(nodes.size(), 0) {
-    parallel_for(BinaryBvh::kRoot, nodes.size(), kGrain, [&](size_t first, size_t last) {
+    parallel_for(BinaryBvh::kRoot, nodes.size(), kMeshGrain, [&](size_t first, size_t last) {
       for (size_t i = first; i < last; ++i)
         if (!nodes_[i].is_leaf) parents_[nodes_[i].first / 2] = static_cast<uint32_t>(i);
     });
     std::vector<Candidate> parents(nodes.size() / 2 - 1);
-    parallel_for(0, parents.size(), kGrain, [&](size_t first, size_t last) {
+    parallel_for(0, parents.size(), kMeshGrain, [&](size_t first, size_t last) {
       for (size_t i = first; i < last; ++i) {
         const uint32_t parent = parents_[i + 1];
         parents[i] = {half_area(nodes_[parent].box()), nodes_[parent].first};
@@ -64,8 +64,6 @@ class Reinserter {
   }
 
  private:
-  static constexpr size_t kGrain = 1 << 14;
-
   uint32_t parent(uint32_t node) const { return parents_[node / 2]; }
 
   struct Candidate {

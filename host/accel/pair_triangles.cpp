@@ -15,7 +15,6 @@ namespace tachylite {
 namespace {
 
 constexpr uint32_t kNone = 0xffffffffu;
-constexpr size_t kGrain = 1 << 14;
 
 Lanes lanes(const glm::vec3& v) {
   return Lanes{v.x, v.y, v.z, 0};
@@ -36,7 +35,7 @@ bool has_area(const BvhInput& input, uint32_t t) {
 }
 
 void check_vertices(const BvhInput& input) {
-  parallel_for(0, input.triangles.size(), kGrain, [&](size_t first, size_t last) {
+  parallel_for(0, input.triangles.size(), kMeshGrain, [&](size_t first, size_t last) {
     for (size_t t = first; t < last; ++t)
       for (int k = 0; k < 3; ++k) {
         CHECK_LT(input.triangles[t][k], input.vertices.size());
@@ -66,7 +65,7 @@ std::vector<uint32_t> find_representatives(std::span<const glm::vec3> vertices) 
     return !std::memcmp(&vertices[a], &vertices[b], sizeof(glm::vec3));
   };
 
-  parallel_for(0, n, kGrain, [&](size_t first, size_t last) {
+  parallel_for(0, n, kMeshGrain, [&](size_t first, size_t last) {
     constexpr size_t kAhead = 16;  // the table is too large for the cache
     size_t hashed = first;
     for (size_t i = first; i < last; ++i) {
@@ -87,7 +86,7 @@ std::vector<uint32_t> find_representatives(std::span<const glm::vec3> vertices) 
       }
     }
   });
-  parallel_for(0, n, kGrain, [&](size_t first, size_t last) {
+  parallel_for(0, n, kMeshGrain, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) slots[i] = table[slots[i]];
   });
   return slots;
@@ -119,7 +118,7 @@ class Matcher {
     // Bucket the half edges by their lower vertex: upper vertex << 32 | half edge << 1 | runs downwards.
     std::vector<uint32_t> bucket(input_.vertices.size() + 1, 0);
     const auto for_half_edges = [&](const auto& body) {
-      parallel_for(0, triangles, kGrain, [&](size_t first, size_t last) {
+      parallel_for(0, triangles, kMeshGrain, [&](size_t first, size_t last) {
         for (size_t t = first; t < last; ++t) {
           if (!has_area(input_, static_cast<uint32_t>(t))) continue;
           const glm::uvec3 v = input_.triangles[t];
@@ -140,7 +139,7 @@ class Matcher {
       partner_[half_edge] = kNone;
     });
     // Sorting makes their order independent of the threads.
-    parallel_for(0, input_.vertices.size(), kGrain, [&](size_t first, size_t last) {
+    parallel_for(0, input_.vertices.size(), kMeshGrain, [&](size_t first, size_t last) {
       for (size_t v = first; v < last; ++v) {
         const auto begin = edges.begin() + bucket[v], end = edges.begin() + bucket[v + 1];
         std::sort(begin, end);
@@ -193,10 +192,10 @@ class Matcher {
     std::vector<uint32_t> open, best(input_.triangles.size(), kNone);
     for (size_t t = 0; t < input_.triangles.size(); ++t) open.push_back(static_cast<uint32_t>(t));
     for (int round = 0; round < 12 && !open.empty(); ++round) {
-      parallel_for(0, open.size(), kGrain, [&](size_t first, size_t last) {
+      parallel_for(0, open.size(), kMeshGrain, [&](size_t first, size_t last) {
         for (size_t i = first; i < last; ++i) best[open[i]] = best_half_edge(open[i]);
       });
-      parallel_for(0, open.size(), kGrain, [&](size_t first, size_t last) {
+      parallel_for(0, open.size(), kMeshGrain, [&](size_t first, size_t last) {
         for (size_t i = first; i < last; ++i) {
           const uint32_t h = best[open[i]];
           if (h != kNone && best[partner_[h] / 3] == partner_[h]) mate_[open[i]] = h;

@@ -10,6 +10,9 @@ namespace tachylite {
 /// belongs to its own items. The first exception is rethrown after all subranges have ended.
 void parallel_for(size_t begin, size_t end, size_t grain, const std::function<void(size_t, size_t)>& body);
 
+/// A grain for loops over vertices, triangles or nodes that do little for each.
+constexpr size_t kMeshGrain = size_t{1} << 14;
+
 /// Calls body(i) for each i below `count`, likewise; the exception that is rethrown is that of the least i.
 void parallel_for_each(size_t count, const std::function<void(size_t)>& body);
 

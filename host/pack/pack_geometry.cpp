@@ -63,8 +63,6 @@ CurvedPrimitive curved_primitive(const Shape& shape) {
   return curved;
 }
 
-constexpr size_t kGrain = 16384;  // of loops over a mesh
-
 struct Counts {
   size_t vertices = 0, triangles = 0, curved = 0;
 };
@@ -88,9 +86,9 @@ struct Bounds {
 void add_world_bounds(const Shape& shape, Bounds& bounds) {
   if (const auto* mesh = std::get_if<MeshShape>(&shape.kind)) {
     const std::vector<glm::vec3>& positions = mesh->mesh->positions;
-    std::vector<Bounds> parts((positions.size() + kGrain - 1) / kGrain);
+    std::vector<Bounds> parts((positions.size() + kMeshGrain - 1) / kMeshGrain);
     parallel_for_each(parts.size(), [&](size_t part) {
-      const size_t first = part * kGrain, last = std::min(first + kGrain, positions.size());
+      const size_t first = part * kMeshGrain, last = std::min(first + kMeshGrain, positions.size());
       for (size_t i = first; i < last; ++i) parts[part].add(transform_point(shape.to_world, dvec3(positions[i])));
     });
     for (const Bounds& part : parts) {
@@ -124,7 +122,7 @@ void put_face(const Face& face, const FaceUv& uv, const dmat4& to_device, size_t
 void put_mesh(const Shape& shape, const dmat4& to_device, const ShapeGeometry& range, Geometry& out) {
   const Mesh& mesh = *std::get<MeshShape>(shape.kind).mesh;
   const dmat3 normal_matrix = glm::transpose(glm::inverse(dmat3(shape.to_world)));
-  parallel_for(0, mesh.positions.size(), kGrain, [&](size_t first, size_t last) {
+  parallel_for(0, mesh.positions.size(), kMeshGrain, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       const size_t v = range.first_vertex + i;
       out.vertices[v] = glm::vec3(transform_point(to_device, dvec3(mesh.positions[i])));
@@ -136,7 +134,7 @@ void put_mesh(const Shape& shape, const dmat4& to_device, const ShapeGeometry& r
       if (range.has_uv) out.uvs[v] = mesh.uvs[i];
     }
   });
-  parallel_for(0, mesh.triangles.size(), kGrain, [&](size_t first, size_t last) {
+  parallel_for(0, mesh.triangles.size(), kMeshGrain, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i)
       out.triangles[range.first_primitive + i] = mesh.triangles[i] + glm::uvec3(range.first_vertex);
   });

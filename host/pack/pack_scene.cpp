@@ -22,8 +22,6 @@
 namespace tachylite {
 namespace {
 
-constexpr size_t kGrain = 16384;
-
 using glm::dvec3;
 using glm::uvec4;
 using glm::vec4;
@@ -35,7 +33,7 @@ void put_vertices(const Geometry& geometry, PackedScene& out) {
   out.positions.resize(count);
   const bool normals = out.features.vertex_normals || uv;
   if (normals) out.normals.resize(count);
-  parallel_for(0, count, kGrain, [&](size_t first, size_t last) {
+  parallel_for(0, count, kMeshGrain, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       out.positions[i] = vec4(geometry.vertices[i], uv ? geometry.uvs[i].x : 0.0f);
       if (normals)
@@ -47,7 +45,7 @@ void put_vertices(const Geometry& geometry, PackedScene& out) {
 
 void put_primitives(const Geometry& geometry, PackedScene& out) {
   out.triangles.resize(geometry.triangles.size());
-  parallel_for(0, geometry.triangles.size(), kGrain, [&](size_t first, size_t last) {
+  parallel_for(0, geometry.triangles.size(), kMeshGrain, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i)
       out.triangles[i] = uvec4(geometry.triangles[i], geometry.shape_of_triangle[i] * gpu::kShapeRows);
   });
@@ -98,7 +96,7 @@ void mark_leaves(const Scene& scene, const Geometry& geometry, const std::vector
     // Curved primitives are found by their rows.
     if (curved) info.x = (info.x - static_cast<uint32_t>(geometry.triangles.size())) * gpu::kCurvedRows;
   };
-  parallel_for(0, out.bvh.leaf_info.size(), kGrain, [&](size_t first, size_t last) {
+  parallel_for(0, out.bvh.leaf_info.size(), kMeshGrain, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) mark(out.bvh.leaf_info[i]);
   });
 }

@@ -182,7 +182,7 @@ class ObjMeshBuilder {
     mesh_.positions.resize(vertices_.size());
     if (any_uv_) mesh_.uvs.resize(vertices_.size());
     if (any_normal_) mesh_.normals.resize(vertices_.size());
-    parallel_for(0, vertices_.size(), 16384, [&](size_t first, size_t last) {
+    parallel_for(0, vertices_.size(), kMeshGrain, [&](size_t first, size_t last) {
       for (size_t i = first; i < last; ++i) {
         const auto& [corner, next] = vertices_[i];
         mesh_.positions[i] = tables_.positions[corner.position];

@@ -267,7 +267,7 @@ class PlyReader {
         const std::vector<float>& values = part.attributes[i].attribute.values;
         all[i].attribute.values.insert(all[i].attribute.values.end(), values.begin(), values.end());
       }
-    keep(all);
+    keep(std::move(all));
   }
 
   /// Moves `rows` to where they end. Nothing, if one does not end where the next begins.
@@ -277,7 +277,7 @@ class PlyReader {
     std::vector<Part> parts(rows.size());
     std::vector<std::exception_ptr> failures(rows.size());
     const std::vector<Rows<Source>> begins = rows;
-    parallel_for(0, rows.size(), 1, [&](size_t i, size_t) {
+    parallel_for_each(rows.size(), [&](size_t i) {
       try {
         parts[i].attributes = attributes;
         RowReader row(rows[i].source, element);

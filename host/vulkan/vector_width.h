@@ -3,7 +3,8 @@
 namespace tachylite::vulkan {
 
 /// Asks lavapipe for vectors of 512 bits instead of 256, where the CPU has AVX-512: kernels that follow whole paths
-/// through baked geometry need 0.7 times the CPU time then, kernels that walk trees 1.2 times (tests/bench/README.md).
+/// through baked geometry need 0.6 to 0.8 times the CPU time then, a scene with a tree 1.5 to 1.8 times
+/// (tests/bench/README.md).
 /// Lavapipe reads LP_NATIVE_VECTOR_WIDTH once a process, so this must precede the first Device; its shader cache
 /// confuses widths, so that this one gets a folder of its own ("vectors-512" in MESA_SHADER_CACHE_DIR, else
 /// "tachylite-vectors-512" in XDG_CACHE_HOME or ~/.cache). Without such a folder, or where the user has set the width,
