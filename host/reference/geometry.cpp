@@ -16,7 +16,36 @@ int apex_of(const dvec3& a, const dvec3& b, const dvec3& c) {
   return bc >= ca && bc >= ab ? 0 : ca >= ab ? 1 : 2;
 }
 
+/// On which side of the line from the origin to p the point q is: the sign of p x q, or 0. Rounding is monotonic: the
+/// sign is never the wrong one, and that of (q, p) is the opposite.
+int side(const dvec2& p, const dvec2& q) {
+  const double a = p.x * q.y, b = p.y * q.x;
+  return (a > b) - (a < b);
+}
+
 }  // namespace
+
+/// Woop, Benthin and Wald 2013, "Watertight Ray/Triangle Intersection": vertices are sheared, each alone, so that the
+/// ray becomes the z axis. Triangles that share an edge see it at the same place, and no ray passes between them.
+struct Geometry::ShearedRay {
+  const Ray& ray;
+  int x, y, z;  // axes; z is the one that the ray is most along
+  double shear_x, shear_y;
+
+  explicit ShearedRay(const Ray& r) : ray(r) {
+    const dvec3 d = glm::abs(ray.direction);
+    z = d.x > d.y && d.x > d.z ? 0 : d.y > d.z ? 1 : 2;
+    x = (z + 1) % 3;
+    y = (z + 2) % 3;
+    shear_x = ray.direction[x] / ray.direction[z];
+    shear_y = ray.direction[y] / ray.direction[z];
+  }
+  dvec2 operator()(const dvec3& p) const {
+    const dvec3 s = p - ray.origin;
+    return {s[x] - shear_x * s[z], s[y] - shear_y * s[z]};
+  }
+  double distance(const dvec3& p) const { return (p[z] - ray.origin[z]) / ray.direction[z]; }
+};
 
 Geometry::Geometry(const Scene& scene) : scene_(scene) {
   std::vector<Box> boxes;
@@ -77,8 +106,9 @@ Geometry::Geometry(const Scene& scene) : scene_(scene) {
   bvh_ = Bvh2(boxes);
 }
 
-std::optional<Geometry::Candidate> Geometry::intersect_primitive(const Primitive& primitive, const Ray& ray,
+std::optional<Geometry::Candidate> Geometry::intersect_primitive(const Primitive& primitive, const ShearedRay& sheared,
                                                                  double t_max) const {
+  const Ray& ray = sheared.ray;
   const WorldShape& world = shapes_[static_cast<size_t>(primitive.shape)];
   if (!world.mesh) {
     const auto hit = intersect_unit_shape(scene_.shapes[static_cast<size_t>(primitive.shape)],
@@ -87,21 +117,30 @@ std::optional<Geometry::Candidate> Geometry::intersect_primitive(const Primitive
     if (!hit) return std::nullopt;
     return Candidate{hit->t, hit->p};
   }
-  // Moeller and Trumbore 1997; edges belong to both triangles.
+  // Edges belong to both triangles.
   const glm::uvec3 v = world.mesh->triangles[primitive.triangle];
   const int i0 = primitive.apex, i1 = (i0 + 1) % 3, i2 = (i0 + 2) % 3;
-  const dvec3 v0 = world.positions[v[i0]];
-  const dvec3 e1 = world.positions[v[i1]] - v0, e2 = world.positions[v[i2]] - v0;
+  const dvec3 v0 = world.positions[v[i0]], v1 = world.positions[v[i1]], v2 = world.positions[v[i2]];
+  const dvec2 p0 = sheared(v0), p1 = sheared(v1), p2 = sheared(v2);
+  const int s0 = side(p1, p2), s1 = side(p2, p0), s2 = side(p0, p1);
+  if (std::min({s0, s1, s2}) < 0 && std::max({s0, s1, s2}) > 0) return std::nullopt;
+  if (s0 == 0 && s1 == 0 && s2 == 0) return std::nullopt;  // edge-on
+
+  // Moeller and Trumbore 1997: more accurate than what interpolates between vertices, but for edges.
+  const dvec3 e1 = v1 - v0, e2 = v2 - v0;
   const dvec3 q = glm::cross(ray.direction, e2);
   const double determinant = glm::dot(e1, q);
-  if (determinant == 0) return std::nullopt;
   const dvec3 s = ray.origin - v0;
-  const double b1 = glm::dot(s, q) / determinant;
-  if (!(b1 >= 0 && b1 <= 1)) return std::nullopt;
   const dvec3 r = glm::cross(s, e1);
-  const double b2 = glm::dot(ray.direction, r) / determinant;
-  if (!(b2 >= 0 && b1 + b2 <= 1)) return std::nullopt;
-  const double t = glm::dot(e2, r) / determinant;
+  double b1 = glm::dot(s, q) / determinant, b2 = glm::dot(ray.direction, r) / determinant;
+  double t = glm::dot(e2, r) / determinant;
+  if (!(b1 >= 0 && b2 >= 0 && b1 + b2 <= 1)) {  // rounded to the other side of an edge, or nearly edge-on
+    const auto area = [](const dvec2& a, const dvec2& b) { return std::abs(a.x * b.y - a.y * b.x); };
+    const double a0 = area(p1, p2), a1 = area(p2, p0), a2 = area(p0, p1), sum = a0 + a1 + a2;
+    b1 = a1 / sum;
+    b2 = a2 / sum;
+    t = (a0 * sheared.distance(v0) + a1 * sheared.distance(v1) + a2 * sheared.distance(v2)) / sum;
+  }
   if (!(t > 0 && t < t_max)) return std::nullopt;
   dvec3 where;
   where[i0] = 1 - b1 - b2;
@@ -113,11 +152,12 @@ std::optional<Geometry::Candidate> Geometry::intersect_primitive(const Primitive
 std::optional<SurfacePoint> Geometry::intersect(const Ray& ray, bool without_emitters) const {
   std::optional<Candidate> nearest;
   Primitive primitive{};
+  const ShearedRay sheared(ray);
   bvh_.traverse(ray, [&](uint32_t item, double& t_max) {
     const Primitive& candidate = primitives_[item];
     if (without_emitters && scene_.shapes[static_cast<size_t>(candidate.shape)].emitter != kNone)
       return false;
-    if (const auto hit = intersect_primitive(candidate, ray, t_max)) {
+    if (const auto hit = intersect_primitive(candidate, sheared, t_max)) {
       nearest = hit;
       primitive = candidate;
       t_max = hit->t;
@@ -131,8 +171,9 @@ std::optional<SurfacePoint> Geometry::intersect(const Ray& ray, bool without_emi
 }
 
 bool Geometry::occluded(const Ray& ray) const {
+  const ShearedRay sheared(ray);
   return bvh_.traverse(ray, [&](uint32_t item, double& t_max) {
-    return intersect_primitive(primitives_[item], ray, t_max).has_value();
+    return intersect_primitive(primitives_[item], sheared, t_max).has_value();
   });
 }
 

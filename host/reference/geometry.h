@@ -77,7 +77,8 @@ class Geometry {
   };
 
   std::optional<SurfacePoint> intersect(const Ray& ray, bool without_emitters) const;
-  std::optional<Candidate> intersect_primitive(const Primitive& primitive, const Ray& ray,
+  struct ShearedRay;
+  std::optional<Candidate> intersect_primitive(const Primitive& primitive, const ShearedRay& sheared,
                                                double t_max) const;
   SurfacePoint surface_point(const Primitive& primitive, const dvec3& where) const;
   SurfacePoint triangle_point(const Primitive& primitive, const dvec3& barycentrics) const;

@@ -1,12 +1,12 @@
 // The traversal of shaders/geometry/bvh.glsl on the device, against brute force in double on the host.
 
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 
 #include "support/bvh_scenes.h"
 #include "support/bvh_traversal.h"
 #include "support/device_test.h"
+#include "support/edge_rays.h"
 #include "support/tracer.h"
 
 namespace tachylite::test {
@@ -41,21 +41,9 @@ std::vector<Candidate> candidates(const BvhInput& input, const TraceRay& ray, do
   return out;
 }
 
-/// A point on the surface of a closed mesh, as close to an edge or to a vertex as floats allow.
-std::vector<TraceRay> rays_at_edges(const TestScene& scene, const glm::dvec3& centre, double spread, size_t count,
-                                    uint32_t seed) {
-  Random random(seed);
-  std::vector<TraceRay> rays(count);
-  for (size_t i = 0; i < count; ++i) {
-    const glm::uvec3& t = scene.triangles[static_cast<size_t>(random.uniform() * static_cast<double>(scene.triangles.size()))];
-    const int k = static_cast<int>(random.uniform(0, 3));
-    const glm::dvec3 a(scene.vertices[t[k]]), b(scene.vertices[t[(k + 1) % 3]]);
-    const glm::dvec3 target = i % 3 == 0 ? a : a + random.uniform() * (b - a);
-    rays[i].origin = glm::vec3(centre + random.in_cube(spread));
-    rays[i].direction = glm::vec3(target - glm::dvec3(rays[i].origin));
-    if (i % 2) rays[i].direction = glm::normalize(rays[i].direction);
-    rays[i].t_max = kInfinity;
-  }
+std::vector<TraceRay> trace_rays(const std::vector<EdgeRay>& edge_rays) {
+  std::vector<TraceRay> rays;
+  for (const EdgeRay& ray : edge_rays) rays.push_back({glm::vec3(ray.origin), kInfinity, glm::vec3(ray.direction)});
   return rays;
 }
 
@@ -117,16 +105,12 @@ class TraceTest : public DeviceTest {
     EXPECT_LT(found, rays.size() + 1);
   }
 
-  /// Of `count` rays from around `centre`, within a closed room, at edges and corners of `aim`: those that hit nothing.
-  size_t leaks(const TestScene& aim, const glm::dvec3& centre, double spread, size_t count, uint32_t seed) {
-    constexpr size_t kBatch = 1000000;
+  void expect_no_leaks(const ClosedMesh& mesh) {
+    build(mesh.room);
     size_t leaks = 0;
-    for (; count > 0; ++seed) {
-      const size_t rays = std::min(count, kBatch);
-      leaks += count_misses(trace(rays_at_edges(aim, centre, spread, rays, seed)));
-      count -= rays;
-    }
-    return leaks;
+    for_rays_at_edges(mesh, RayPrecision::kFloat, 60000,
+                      [&](const auto& rays) { leaks += count_misses(trace(trace_rays(rays))); });
+    EXPECT_EQ(leaks, 0u) << mesh.name;
   }
 
   TestScene scene_;
@@ -179,106 +163,23 @@ TEST_F(TraceTest, CurvedAmongTriangles) {
   expect_brute_force(random_rays(3000, 1.5, 11), 1e-4, 3e-4, 1);
 }
 
-/// TACHYLITE_EDGE_RAYS: so many in each case instead.
-size_t edge_rays(size_t usually) {
-  const char* wanted = std::getenv("TACHYLITE_EDGE_RAYS");
-  return wanted ? std::strtoull(wanted, nullptr, 10) : usually;
-}
-
 TEST_F(TraceTest, ClosedMeshesDoNotLeak) {
-  for (const auto& [scale, offset] : {std::pair{1.0, 0.0}, {1e-4, 0.0}, {1e6, 0.0}, {1.0, 300.0}}) {
-    TestScene scene = bumpy_sphere(40, 80, .1, 12);
-    for (glm::vec3& v : scene.vertices) v = glm::vec3(glm::dvec3(v) * scale + offset);
-    build(scene);
-    EXPECT_EQ(leaks(scene, glm::dvec3(offset), .3 * scale, edge_rays(60000), 13), 0u) << scale;
-  }
+  for (const ClosedMesh& mesh : closed_meshes()) expect_no_leaks(mesh);
 }
 
-TEST_F(TraceTest, ThinClosedMeshesDoNotLeak) {
-  TestScene scene = bumpy_sphere(30, 60, .02, 14);
-  for (glm::vec3& v : scene.vertices) v.z *= 1e-3f;
-  build(scene);
-  EXPECT_EQ(leaks(scene, glm::dvec3(0), 1e-4, edge_rays(40000), 15), 0u);
-}
-
-/// 3 x 3 x 3 boxes face to face but for the one in the middle, or that one alone: 26 make a closed room that no single
-/// mesh closes. Corners lie off a grid of pitch 2, the same for all boxes that touch there.
-TestScene touching_boxes(bool middle, double off, uint32_t seed) {
-  constexpr int kBoxes = 3, kCorners = kBoxes + 1;
-  TestScene scene;
-  Random random(seed);
-  std::vector<glm::vec3> corners;
-  for (int i = 0; i < kCorners * kCorners * kCorners; ++i) {
-    const glm::dvec3 p(i % kCorners, i / kCorners % kCorners, i / kCorners / kCorners);
-    corners.emplace_back(2.0 * p - double(kBoxes) + random.in_cube(off));
-  }
-  for (int box = 0; box < kBoxes * kBoxes * kBoxes; ++box) {
-    const glm::ivec3 at(box % kBoxes, box / kBoxes % kBoxes, box / kBoxes / kBoxes);
-    if ((at == glm::ivec3(kBoxes / 2)) != middle) continue;
-    for (int axis = 0; axis < 3; ++axis)
-      for (int side = 0; side < 2; ++side) {
-        const auto corner = [&](int u, int v) {
-          glm::ivec3 p = at;
-          p[axis] += side;
-          p[(axis + 1) % 3] += u;
-          p[(axis + 2) % 3] += v;
-          return corners[static_cast<size_t>((p.z * kCorners + p.y) * kCorners + p.x)];
-        };
-        scene.add(corner(0, 0), corner(1, 0), corner(1, 1));
-        scene.add(corner(0, 0), corner(1, 1), corner(0, 1));
-      }
-  }
-  return scene;
-}
+TEST_F(TraceTest, ThinClosedMeshesDoNotLeak) { expect_no_leaks(thin_closed_mesh()); }
 
 TEST_F(TraceTest, TouchingBoxesDoNotLeak) {
-  for (const double off : {0.0, 0.2}) {
-    build(touching_boxes(false, off, 24));
-    EXPECT_EQ(leaks(touching_boxes(true, off, 24), glm::dvec3(0), 0.7, edge_rays(60000), 25), 0u) << off;
-  }
+  for (const ClosedMesh& mesh : touching_boxes()) expect_no_leaks(mesh);
 }
 
-/// The unit cube [-1, 1]^3 of quads; n x n quads a side.
-TestScene tessellated_box(int n) {
-  TestScene scene;
-  for (int axis = 0; axis < 3; ++axis)
-    for (float side : {-1.0f, 1.0f})
-      for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j) {
-          const auto at = [&](int u, int v) {
-            glm::vec3 p;
-            p[axis] = side;
-            p[(axis + 1) % 3] = -1 + 2 * static_cast<float>(u) / static_cast<float>(n);
-            p[(axis + 2) % 3] = -1 + 2 * static_cast<float>(v) / static_cast<float>(n);
-            return p;
-          };
-          scene.add(at(i, j), at(i + 1, j), at(i + 1, j + 1));
-          scene.add(at(i, j), at(i + 1, j + 1), at(i, j + 1));
-        }
-  return scene;
-}
-
-/// Axis-parallel rays from the box's own grid: along edges, through vertices, within the planes of its faces.
 TEST_F(TraceTest, AxisParallelRaysInABox) {
   constexpr int kQuads = 6;
   build(tessellated_box(kQuads));
-  std::vector<TraceRay> rays;
-  for (int axis = 0; axis < 3; ++axis)
-    for (float sign : {-1.0f, 1.0f})
-      for (int i = 0; i <= 4 * kQuads; ++i)
-        for (int j = 0; j <= 4 * kQuads; ++j) {
-          TraceRay ray;
-          ray.t_max = kInfinity;
-          ray.origin[axis] = 0.25f;
-          ray.origin[(axis + 1) % 3] = -1 + 2 * static_cast<float>(i) / (4 * kQuads);
-          ray.origin[(axis + 2) % 3] = -1 + 2 * static_cast<float>(j) / (4 * kQuads);
-          ray.direction[axis] = sign;
-          rays.push_back(ray);
-        }
-  const std::vector<TraceHit> hits = trace(rays);
+  const std::vector<EdgeRay> rays = axis_parallel_rays(kQuads);
+  const std::vector<TraceHit> hits = trace(trace_rays(rays));
   ASSERT_EQ(count_misses(hits), 0u);
-  for (size_t i = 0; i < rays.size(); ++i)
-    EXPECT_EQ(hits[i].t, rays[i].direction.x + rays[i].direction.y + rays[i].direction.z > 0 ? 0.75f : 1.25f);
+  for (size_t i = 0; i < rays.size(); ++i) EXPECT_EQ(hits[i].t, axis_parallel_distance(rays[i]));
 }
 
 TEST_F(TraceTest, TheIgnoredTriangleDoesNotCount) {
