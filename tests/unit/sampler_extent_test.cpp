@@ -5,6 +5,7 @@
 #include "shared/sampler.h"
 
 #include <array>
+#include <cstdlib>
 #include <functional>
 #include <vector>
 
@@ -17,71 +18,86 @@ namespace {
 
 constexpr uint kFirstNet = 10;
 
-/// The boxes of area 2^(quality - size), 2^split of them along the first axis, that the first 2^size points of two
-/// dimensions lie in: a net of that quality has 2^quality points in each.
-class Boxes {
- public:
-  Boxes(uint size, uint split, uint quality)
-      : size_(size), split_(split), other_(size - quality - split), room_(1u << quality) {
-    if (room_ == 1) taken_.resize(size_t{1} << size);
-    else counts_.resize(size_t{1} << (size - quality));
-  }
-
-  uint size() const { return size_; }
-  void add(uint x, uint y) {
-    const uint column = split_ ? x >> (32 - split_) : 0, row = other_ ? y >> (32 - other_) : 0;
-    const size_t box = (size_t{column} << other_) + row;
-    if (room_ == 1) {
-      too_many_ += taken_[box];
-      taken_[box] = true;
-    } else {
-      too_many_ += ++counts_[box] > room_;
-    }
-  }
-  /// Points in boxes that have enough without them. None, for all of a net.
-  size_t too_many() const { return too_many_; }
-  std::string name() const { return fmt::format("2^{} points, 2^{} x 2^{} boxes", size_, split_, other_); }
-
- private:
-  uint size_, split_, other_, room_;
-  size_t too_many_ = 0;
-  std::vector<bool> taken_;
-  std::vector<uint8_t> counts_;
+/// Two dimensions, and the quality t of the nets that their points are. A dimension whose primitive polynomial has
+/// degree e adds e - 1 (Sobol 1967, "On the distribution of points in a cube and the approximate evaluation of
+/// integrals", theorem 3.3): dimensions 0 and 1 add nothing, 2 and 3 one and two.
+struct Pair {
+  int x, y;
+  uint quality;
 };
+constexpr Pair kPairs[] = {{0, 1, 0}, {0, 2, 1}, {1, 2, 1}, {0, 3, 2}, {1, 3, 2}, {2, 3, 3}};
 
-/// Dimensions (0, 1) are a (0, 2)-sequence. Those with primitive polynomials of degrees 2 and 3 have t <= 1 + 2 (Sobol
-/// 1967, "On the distribution of points in a cube and the approximate evaluation of integrals", theorem 3.3), and
-/// t = 0 each.
-void expect_nets(uint pixel, uint group, uint last) {
-  constexpr uint kQuality23 = 3;
-  std::vector<std::pair<Boxes, glm::uvec2>> all;
-  for (uint size = last; size >= kFirstNet; size -= size > 16 ? 4 : 1) {  // the largest first
-    all.push_back({{size, size / 2, 0}, {0, 1}});
-    if (size < kMaxSampleBits)  // the memory of 2^24 boxes is far: a second each
-      for (uint split : {0u, size / 3, size}) all.push_back({{size, split, 0}, {0, 1}});
-    const uint coarse = size - kQuality23;
-    for (uint split : {coarse / 3}) all.push_back({{size, split, kQuality23}, {2, 3}});
-    for (uint dimension : {2u, 3u}) all.push_back({{size, size, 0}, {dimension, dimension}});
+/// Of the first 2^size points, those in boxes that have enough without them. The boxes have the area
+/// 2^(quality - size), 2^split of them lie along x: in a net, each has 2^quality points.
+size_t too_many(const std::vector<uvec4>& points, const Pair& pair, uint size, uint split,
+                std::vector<uint8_t>& counts) {
+  const uint other = size - pair.quality - split;
+  counts.assign(size_t{1} << (size - pair.quality), 0);
+  size_t many = 0;
+  for (size_t i = 0; i < size_t{1} << size; ++i) {
+    const uint64_t x = points[i][pair.x], y = points[i][pair.y];
+    const uint64_t column = x >> (32 - split), row = y >> (32 - other);
+    many += ++counts[(column << other) + row] > 1u << pair.quality;
   }
-  for (uint index = 0; index >> last == 0; ++index) {
-    const uvec4 point = sample_group(kSamplerSobol, pixel, index, group, kMaxSampleBits);
-    for (auto& [boxes, d] : all) {
-      if (index >> boxes.size()) break;
-      boxes.add(point[static_cast<int>(d.x)], point[static_cast<int>(d.y)]);
-    }
-  }
-  for (const auto& [boxes, d] : all)
-    EXPECT_EQ(boxes.too_many(), 0u) << boxes.name() << " of dimensions " << d.x << d.y << ", group " << group;
+  return many;
 }
 
-TEST(SamplerExtent, PrefixesAreNetsToTheLastIndex) {
-  expect_nets(pixel_key(2073599, 4294967295u), group_directions(kFirstHashedVertex - 1), kMaxSampleBits);
+std::vector<uvec4> draw(uint pixel, uint group, size_t count, const std::function<uint(uint)>& index) {
+  std::vector<uvec4> points(count);
+  for (uint i = 0; i < count; ++i) points[i] = sample_group(kSamplerSobol, pixel, index(i), group, kMaxSampleBits);
+  return points;
+}
+
+/// The first 2^10, 2^11 ... points: all pairs of dimensions, boxes of all shapes. And each dimension alone.
+void expect_nets(const std::vector<uvec4>& points, const std::string& name) {
+  std::vector<uint8_t> counts;
+  for (uint size = kFirstNet; points.size() >> size; ++size) {
+    for (const Pair& pair : kPairs)
+      for (uint split = 0; split <= size - pair.quality; ++split)
+        EXPECT_EQ(too_many(points, pair, size, split, counts), 0u)
+            << "2^" << size << " points, 2^" << split << " columns, dimensions " << pair.x << pair.y << ", " << name;
+    for (const int d : {2, 3})
+      EXPECT_EQ(too_many(points, {d, d, 0}, size, size, counts), 0u)
+          << "2^" << size << " points, dimension " << d << ", " << name;
+  }
+}
+
+constexpr uint kPoints = 1u << kMaxSampleBits;
+
+/// TACHYLITE_NET_BITS: up to 2^that many points. All of them, 24, take 29 CPU seconds.
+TEST(SamplerExtent, PrefixesAreNets) {
+  const char* wanted = std::getenv("TACHYLITE_NET_BITS");
+  const size_t count = size_t{1} << (wanted ? std::atoi(wanted) : 20);
+  const uint pixel = pixel_key(2073599, 4294967295u), group = group_directions(kFirstHashedVertex - 1);
+  expect_nets(draw(pixel, group, count, [](uint i) { return i; }), "the last group");
 }
 
 TEST(SamplerExtent, PrefixesOfOtherGroupsAreNets) {
   for (uint seed : {0u, 1u})
     for (uint group : {kGroupCamera, kGroupLens, group_choices(0), group_medium(5), group_extra(7)})
-      expect_nets(pixel_key(31 * seed + 7, seed), group, 16);
+      expect_nets(draw(pixel_key(31 * seed + 7, seed), group, 1 << 14, [](uint i) { return i; }),
+                  fmt::format("group {}", group));
+}
+
+/// The last 2^10, 2^11 ... of all 2^24 points are nets, too, and none is among the first.
+TEST(SamplerExtent, TheLastPointsAreNets) {
+  constexpr size_t kCount = 1 << 16;
+  const uint pixel = pixel_key(5, 6);
+  const std::vector<uvec4> first = draw(pixel, kGroupCamera, kCount, [](uint i) { return i; });
+  const std::vector<uvec4> last = draw(pixel, kGroupCamera, kCount, [](uint i) { return kPoints - 1 - i; });
+  expect_nets(last, "the last points");
+  // In each dimension, each of the 2^24 has its own interval.
+  for (int d = 0; d < 4; ++d) {
+    std::vector<bool> taken(kPoints);
+    size_t again = 0;
+    for (const auto* points : {&first, &last})
+      for (const uvec4& point : *points) {
+        const uint interval = point[d] >> (32 - kMaxSampleBits);
+        again += taken[interval];
+        taken[interval] = true;
+      }
+    EXPECT_EQ(again, 0u) << d;
+  }
 }
 
 /// The numbers of a pixel, a seed, an index and a group.
