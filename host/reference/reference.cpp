@@ -8,6 +8,7 @@
 #include "reference/aov.h"
 #include "reference/sensor.h"
 #include "reference/world.h"
+#include "shared/sampler.h"
 
 namespace tachylite {
 
@@ -123,6 +124,11 @@ ReferenceImage render_reference(const Scene& scene, const ReferenceOptions& opti
     renderer.add_film(*options.begun);
     done = options.begun->samples();
   }
+  constexpr uint64_t kEndSample = uint64_t{1} << gpu::kMaxSampleBits;  // as on the device
+  if (wanted > kEndSample || options.first_sample > kEndSample - wanted)
+    throw InputError(fmt::format("samples must lie in 1..{} together with the first sample", kEndSample));
+  if (wanted > ReproducibleSums::kMaxValues)
+    throw InputError(fmt::format("a film of the reference holds at most {} samples", ReproducibleSums::kMaxValues));
   constexpr double kLongPass = 1;  // s; passes of one sample are interrupted sooner
   double pass_seconds = 0;
   while (done < wanted && timer.seconds() < options.seconds) {
