@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "reference/reference.h"
 #include "stress/stress_case.h"
 
 namespace tachylite::test {
@@ -43,6 +44,12 @@ TEST_F(LoopBudget, ThousandsOfSteps) {
         {{"m.obj", obj}});
     const bool done = expect_right_or_refused(fmt::format("{} needles whose boxes all overlap", count), scene, 1);
     EXPECT_TRUE(done || count > 1000);
+    Scene small = scene;  // or the reference tests each needle for each of 1,024 rays
+    Film& film = small.sensors[0].film;
+    film.width = film.height = film.crop_width = film.crop_height = 8;
+    const double error = worst_pixel(1)(render_reference(small, {.samples = 1}).film);
+    EXPECT_LT(error, 2e-6) << count;
+    fmt::print("stress | {} needles | reference {:.1e}\n", count, error);
   }
 }
 
