@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kBlock = 8;
 constexpr double kErrors = 8, kTolerance = 1e-4;
+constexpr const char* kMoment = "m2_";
 
 struct Window {
   int x = 0, y = 0, width = 0, height = 0;
@@ -41,6 +42,13 @@ bool is_auxiliary(const std::string& name) {
   return name != "R" && name != "G" && name != "B" && !name.starts_with("variance.");
 }
 
+size_t moment_channel(const FilmBuffer& film, int color) {
+  const std::vector<std::string>& names = film.extra_channels();
+  const auto found = std::find(names.begin(), names.end(), kMoment + std::string(1, "RGB"[color]));
+  CHECK(found != names.end());
+  return static_cast<size_t>(found - names.begin());
+}
+
 /// Of all channels that begin so: a component of a vector may be nothing but rounding.
 double largest_of(const Image& image, const std::string& prefix) {
   double largest = 0;
@@ -63,7 +71,8 @@ std::string compare_aovs(const AovReplicates& a, const AovReplicates& b) {
   for (size_t c = 0; c < a[0].names.size(); ++c) {
     const std::string& name = a[0].names[c];
     if (!is_auxiliary(name)) continue;
-    const double largest = largest_of(a[0], name.substr(0, name.find('.') + 1));
+    const bool moment = name.starts_with(kMoment);
+    const double largest = largest_of(a[0], moment ? kMoment : name.substr(0, name.find('.') + 1));
     for (const Window& w : windows) {
       const Mean here = mean_of(a, name, w), there = mean_of(b, name, w);
       const double beyond = std::abs(here.value - there.value) - kTolerance * largest;
@@ -75,6 +84,31 @@ std::string compare_aovs(const AovReplicates& a, const AovReplicates& b) {
                             there.value);
     }
   }
+  return message;
+}
+
+std::string check_moments(const std::function<FilmBuffer(uint64_t samples)>& render) {
+  constexpr uint64_t kSamples = 6;  // more than the block of four that a device sums in float32
+  constexpr double kRounding = 1e-5;
+  std::vector<FilmBuffer> films;
+  for (uint64_t n = 1; n <= kSamples; ++n) films.push_back(render(n));
+  const FilmBuffer& all = films.back();
+  std::string message;
+  double worst = kRounding;
+  for (size_t i = 0; i < all.pixels(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      double sum = 0, squares = 0;
+      for (const FilmBuffer& film : films) {
+        const double to_here = film.mean(i)[c] * static_cast<double>(film.samples());
+        squares += (to_here - sum) * (to_here - sum);
+        sum = to_here;
+      }
+      const double found = all.extra_mean(i, moment_channel(all, c)), expected = squares / double{kSamples};
+      const double error = std::abs(found - expected) / std::max(sum * sum, 1e-30);
+      if (!(error > worst)) continue;
+      worst = error;
+      message = fmt::format("the second moment of channel {} of pixel {} is {:.8g}, not {:.8g}", c, i, found, expected);
+    }
   return message;
 }
 

@@ -24,10 +24,11 @@ class Judge {
 
   /// First what is cheap.
   void compare_auxiliary_channels(Judgement& judgement) {
-    if (scene_.integrator.aovs.empty()) return;
+    if (scene_.integrator.aovs.empty() && !scene_.integrator.moment) return;
     Scene first_hits = scene_;
     first_hits.integrator.max_depth = 1;
-    first_hits.integrator.moment = false;
+    // Nothing is left to sampling but the pixel, so that moments, too, are those of the scene.
+    if (!scene_.media.empty()) first_hits.integrator.moment = false;
     const PackedScene packed = pack_scene(first_hits);
     AovReplicates a, b;
     for (uint32_t attempt = 0; attempt < 3; ++attempt) {
@@ -41,6 +42,18 @@ class Judge {
       judgement.message = difference;
     }
     judgement.verdict = Judgement::Verdict::kDiffer;
+  }
+
+  void check_both_moments() {
+    if (!scene_.integrator.moment) return;
+    const std::string device = check_moments([&](uint64_t samples) {
+      return on_device(packed_, samples, options_.seed, KernelStructure::kStages);
+    });
+    if (!device.empty()) throw Defect{device + ", on the device"};
+    const std::string reference = check_moments([&](uint64_t samples) {
+      return film_of_reference(scene_, samples, options_.seed);
+    });
+    if (!reference.empty()) throw Defect{reference + ", by the reference"};
   }
 
   void compare(Judgement& judgement) {
@@ -98,12 +111,15 @@ class Judge {
   }
 
   static Image on_reference(const Scene& scene, uint64_t samples, uint32_t seed) {
+    return film_of_reference(scene, samples, seed).to_image();
+  }
+  static FilmBuffer film_of_reference(const Scene& scene, uint64_t samples, uint32_t seed) {
     ReferenceOptions render;
     render.samples = samples;
     render.seed = seed + 0x40000000u;
     const ReferenceImage image = render_reference(scene, render);
     if (image.nonfinite) throw Defect{fmt::format("{} samples of the reference are not finite", image.nonfinite)};
-    return to_image(image);
+    return image.film;
   }
 
   static void note_power(const Comparison& comparison, Judgement& judgement) {
@@ -128,6 +144,7 @@ Judgement judge_scene(vulkan::Device& device, const SceneText& text, const Judge
   try {
     const Scene scene = scene_from_elements(text.xml(), text.files);
     Judge judge(device, scene, options);
+    judge.check_both_moments();
     judge.compare_auxiliary_channels(judgement);
     if (!judgement.failed()) judge.compare(judgement);
     if (options.structures && !judgement.failed()) judge.compare_structures();
