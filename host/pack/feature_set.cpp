@@ -26,6 +26,7 @@ std::vector<Named> named_features(const FeatureSet& f) {
           {f.vertex_uv, "texture coordinates"},
           {(f.textures & gpu::kTexturesBitmap) != 0, "bitmap textures"},
           {(f.textures & gpu::kTexturesCheckerboard) != 0, "checkerboards"},
+          {(f.textures & gpu::kTexturesNested) != 0, "checkerboards of textures"},
           {(f.textures & gpu::kTexturesAttribute) != 0, "mesh attributes"},
           {material(gpu::kMaterialHasWeights), "blended or masked materials"},
           {material(gpu::kMaterialHasFrames), "normal or bump maps"},

@@ -87,6 +87,7 @@ int bend(const Triangle& t, const dvec3& n) {
 }
 
 struct FlatContext {
+  const Scene& scene;
   const LightRadiance& radiance;
   bool flip;
   double density;  // of meshes with normals: that Mitsuba samples points with, its choice of the mesh included [1/area]
@@ -126,8 +127,8 @@ LightRecord flat_record(const FlatContext& context, const Triangle& t, bool rect
 
   double power = mean_component(context.radiance.value);
   if (context.radiance.texture) {
-    const dvec3 here = mean_texture_color(*context.radiance.texture, t[0].uv, t[1].uv - t[0].uv, t[2].uv - t[0].uv,
-                                          rectangle);
+    const dvec3 here = mean_texture_color(context.scene, *context.radiance.texture, t[0].uv, t[1].uv - t[0].uv,
+                                          t[2].uv - t[0].uv, rectangle);
     power = std::max(mean_component(here), 0.01 * power);
   }
   r.rows[0] = glm::vec4(context.radiance.value, 0);
@@ -160,14 +161,15 @@ LightRecord flat_record(const FlatContext& context, const Triangle& t, bool rect
   return r;
 }
 
-std::vector<LightRecord> flat_records(const Geometry& geometry, size_t s, const LightRadiance& radiance,
-                                      size_t emitters, const std::vector<uint32_t>& hits) {
+std::vector<LightRecord> flat_records(const Scene& scene, const Geometry& geometry, size_t s,
+                                      const LightRadiance& radiance, size_t emitters,
+                                      const std::vector<uint32_t>& hits) {
   const ShapeGeometry& range = geometry.shapes[s];
   const uint32_t first = range.first_primitive, count = range.primitive_count;
   const double density =
       range.has_normals ? 1 / (static_cast<double>(emitters) * mesh_area(geometry, range)) : 0;
-  const FlatContext context{radiance, range.flip_normals, density};
-  const bool attribute = radiance.texture && std::holds_alternative<MeshAttributeTexture>(radiance.texture->kind);
+  const FlatContext context{scene, radiance, range.flip_normals, density};
+  const bool attribute = radiance.texture && reads_mesh_attribute(scene, *radiance.texture);
   const bool with_uv = radiance.texture != nullptr;
   std::vector<LightRecord> records;
 
@@ -266,7 +268,7 @@ std::vector<LightRecord> area_light_records(const Scene& scene, const Geometry& 
                                             const std::vector<uint32_t>& hits) {
   if (geometry.shapes[s].first_primitive >= geometry.triangles.size())
     return {curved_record(scene, geometry, s, radiance, hits.at(0))};
-  return flat_records(geometry, s, radiance, emitters, hits);
+  return flat_records(scene, geometry, s, radiance, emitters, hits);
 }
 
 }  // namespace tachylite

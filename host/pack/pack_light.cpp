@@ -59,7 +59,7 @@ class LightPacker {
     if (input.texture == kNone) return {input.value, nullptr, gpu::kNoTexture};
     const Texture& texture = scene_.textures[static_cast<size_t>(input.texture)];
     out_.textures = true;
-    return {mean_texture_color(texture), &texture, textures_.row_of_texture[static_cast<size_t>(input.texture)]};
+    return {mean_texture_color(scene_, texture), &texture, textures_.row_of_texture[static_cast<size_t>(input.texture)]};
   }
 
   void add(const Emitter& emitter, const AreaEmitter& area, const std::vector<uint32_t>& hits) {
@@ -197,7 +197,7 @@ class LightPacker {
     out_.textures |= textured;
     r.rows[5].x = as_float(textured ? textures_.row_of_texture[static_cast<size_t>(texture)] : gpu::kNoTexture);
     if (textured)
-      r.bounds.power *= std::max(1e-3, mean_component(mean_texture_color(scene_.textures[static_cast<size_t>(texture)])));
+      r.bounds.power *= std::max(1e-3, mean_component(mean_texture_color(scene_, scene_.textures[static_cast<size_t>(texture)])));
   }
 
   bool is_sampled(const LightRecord& r) const {

@@ -78,6 +78,13 @@ struct Packer {
     return {gpu::kTextureCheckerboard, 0, 0, 0};
   }
 
+  glm::uvec4 square(const ColorInput& color) {
+    if (color.texture == kNone) return {bits(color.value.r), bits(color.value.g), bits(color.value.b), 0};
+    static_assert(gpu::kMostCheckerboards == kMostCheckerboards);
+    out.kinds |= gpu::kTexturesNested;
+    return {0, 0, 0, 1 + static_cast<uint32_t>(color.texture) * gpu::kTextureRows};
+  }
+
   glm::uvec4 row0(const Texture& texture, const MeshAttributeTexture& attribute) {
     out.kinds |= gpu::kTexturesAttribute;
     const auto [found, is_new] = attribute_of.try_emplace(attribute.name, 0u);
@@ -135,8 +142,8 @@ struct Packer {
                                     glm::uvec4(0),
                                     glm::uvec4(0)};
     if (const auto* board = std::get_if<CheckerboardTexture>(&texture.kind)) {
-      rows[3] = {bits(board->color0.r), bits(board->color0.g), bits(board->color0.b), 0};
-      rows[4] = {bits(board->color1.r), bits(board->color1.g), bits(board->color1.b), 0};
+      rows[3] = square(board->color0);
+      rows[4] = square(board->color1);
     } else if (const auto* attribute = std::get_if<MeshAttributeTexture>(&texture.kind)) {
       rows[3].x = bits(attribute->scale);
     }
@@ -154,11 +161,15 @@ double folded(double u, WrapMode wrap) {
   return m > 1 ? 2 - m : m;
 }
 
-dvec3 point_color(const Texture& texture, const dvec2& uv) {
+/// Mesh attributes count as 1.
+dvec3 point_color(const Scene& scene, const Texture& texture, const dvec2& uv) {
+  if (std::holds_alternative<MeshAttributeTexture>(texture.kind)) return dvec3(1);
   const dvec2 q(texture.to_uv * dvec3(uv, 1));
   if (const auto* board = std::get_if<CheckerboardTexture>(&texture.kind)) {
     const bool same = (q.x - std::floor(q.x) > 0.5) == (q.y - std::floor(q.y) > 0.5);
-    return same ? board->color0 : board->color1;
+    const ColorInput& color = same ? board->color0 : board->color1;
+    return color.texture == kNone ? color.value
+                                  : point_color(scene, scene.textures[static_cast<size_t>(color.texture)], uv);
   }
   const auto& bitmap = std::get<BitmapTexture>(texture.kind);
   const int width = bitmap.bitmap->width, height = bitmap.bitmap->height;
@@ -185,8 +196,23 @@ dvec3 texel_color(const Bitmap& bitmap, TexelFormat format, int x, int y) {
   return color;
 }
 
-dvec3 mean_texture_color(const Texture& texture) {
-  if (const auto* board = std::get_if<CheckerboardTexture>(&texture.kind)) return 0.5 * (board->color0 + board->color1);
+bool reads_mesh_attribute(const Scene& scene, const Texture& texture) {
+  const auto inside = [&](const ColorInput& color) {
+    return color.texture != kNone && reads_mesh_attribute(scene, scene.textures[static_cast<size_t>(color.texture)]);
+  };
+  if (const auto* board = std::get_if<CheckerboardTexture>(&texture.kind))
+    return inside(board->color0) || inside(board->color1);
+  return std::holds_alternative<MeshAttributeTexture>(texture.kind);
+}
+
+dvec3 mean_texture_color(const Scene& scene, const Texture& texture) {
+  if (const auto* board = std::get_if<CheckerboardTexture>(&texture.kind)) {
+    dvec3 sum(0);
+    for (const ColorInput* color : {&board->color0, &board->color1})
+      sum += color->texture == kNone ? color->value
+                                     : mean_texture_color(scene, scene.textures[static_cast<size_t>(color->texture)]);
+    return 0.5 * sum;
+  }
   const auto* bitmap_texture = std::get_if<BitmapTexture>(&texture.kind);
   if (!bitmap_texture) return dvec3(1);
   const Bitmap& bitmap = *bitmap_texture->bitmap;
@@ -199,16 +225,15 @@ dvec3 mean_texture_color(const Texture& texture) {
   return sum / count;
 }
 
-dvec3 mean_texture_color(const Texture& texture, const dvec2& corner, const dvec2& a, const dvec2& b,
-                         bool parallelogram) {
-  if (std::holds_alternative<MeshAttributeTexture>(texture.kind)) return dvec3(1);
+dvec3 mean_texture_color(const Scene& scene, const Texture& texture, const dvec2& corner, const dvec2& a,
+                         const dvec2& b, bool parallelogram) {
   constexpr int kPoints = 6;  // along each side
   dvec3 sum(0);
   for (int i = 0; i < kPoints; ++i)
     for (int j = 0; j < kPoints; ++j) {
       double s = (i + 0.5) / kPoints, t = (j + 0.5) / kPoints;
       if (!parallelogram && s + t > 1) s = 1 - s, t = 1 - t;
-      sum += point_color(texture, corner + s * a + t * b);
+      sum += point_color(scene, texture, corner + s * a + t * b);
     }
   return sum / double(kPoints * kPoints);
 }

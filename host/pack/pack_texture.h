@@ -31,11 +31,14 @@ double decode_srgb(double c);
 /// Linear colour of texel (x, y) of a bitmap: grey repeated, 8-bit values decoded as the format says.
 dvec3 texel_color(const Bitmap& bitmap, TexelFormat format, int x, int y);
 
+/// Whether it is a mesh attribute, or a checkerboard that has one in it.
+bool reads_mesh_attribute(const Scene& scene, const Texture& texture);
+
 /// Mean of a texture, estimated from at most some 64 x 64 texels. Mesh attributes count as 1.
-dvec3 mean_texture_color(const Texture& texture);
+dvec3 mean_texture_color(const Scene& scene, const Texture& texture);
 /// The same over a part of the uv plane, from 36 points: the triangle or parallelogram (corner, corner + a,
 /// corner + b).
-dvec3 mean_texture_color(const Texture& texture, const dvec2& corner, const dvec2& a, const dvec2& b,
-                         bool parallelogram);
+dvec3 mean_texture_color(const Scene& scene, const Texture& texture, const dvec2& corner, const dvec2& a,
+                         const dvec2& b, bool parallelogram);
 
 }  // namespace tachylite

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -122,6 +123,18 @@ BitmapTexture load_bitmap_texture(SceneLoader& loader, const Plugin& plugin, Tex
   return texture;
 }
 
+/// How many checkerboards lie inside one another there, itself among them.
+int count_checkerboards(const Scene& scene, const CheckerboardTexture& texture) {
+  int inside = 0;
+  for (const ColorInput* color : {&texture.color0, &texture.color1}) {
+    if (color->texture == kNone) continue;
+    const auto& kind = scene.textures[static_cast<size_t>(color->texture)].kind;
+    if (const auto* board = std::get_if<CheckerboardTexture>(&kind))
+      inside = std::max(inside, count_checkerboards(scene, *board));
+  }
+  return inside + 1;
+}
+
 }  // namespace
 
 BitmapSlot load_bitmap(SceneLoader& loader, const std::filesystem::path& file, bool raw) {
@@ -138,8 +151,11 @@ Texture load_texture(SceneLoader& loader, const XmlNode& node, TextureIndex inde
     texture.kind = load_bitmap_texture(loader, plugin, index);
   } else if (plugin.type() == "checkerboard") {
     CheckerboardTexture checkerboard;
-    checkerboard.color0 = plugin.constant_color("color0", checkerboard.color0, ColorUse::kIor);
-    checkerboard.color1 = plugin.constant_color("color1", checkerboard.color1, ColorUse::kIor);
+    checkerboard.color0 = plugin.color("color0", checkerboard.color0, ColorUse::kIor);
+    checkerboard.color1 = plugin.color("color1", checkerboard.color1, ColorUse::kIor);
+    if (count_checkerboards(loader.scene, checkerboard) > kMostCheckerboards)
+      throw InputError(node.where,
+                       fmt::format("checkerboards inside one another: expected at most {}", kMostCheckerboards));
     texture.kind = checkerboard;
   } else if (plugin.type() == "mesh_attribute") {
     MeshAttributeTexture attribute{plugin.string("name", ""), plugin.real("scale", 1, kNotNegative)};

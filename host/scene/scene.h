@@ -40,6 +40,22 @@ enum class TexelFormat { kUnorm8Srgb, kUnorm8Linear, kHalf, kFloat };
 enum class WrapMode { kRepeat, kMirror, kClamp };
 enum class FilterType { kNearest, kBilinear };
 
+/// A parameter that is a constant or a texture. As a scalar (alpha, weight, opacity, height) a texture of three
+/// channels counts as its luminance (.212671, .715160, .072169).
+struct ColorInput {
+  dvec3 value{0};
+  TextureIndex texture = kNone;
+  ColorInput() = default;
+  ColorInput(double grey) : value(grey) {}
+  ColorInput(dvec3 color) : value(color) {}
+};
+struct ScalarInput {
+  double value = 0;
+  TextureIndex texture = kNone;
+  ScalarInput() = default;
+  ScalarInput(double v) : value(v) {}
+};
+
 /// A decoded image file, shared by all textures that name the same file.
 /// 8-bit formats: `bytes`, width*height*channels, row 0 on top; float formats: `floats`, the same order.
 struct Bitmap {
@@ -59,11 +75,12 @@ struct BitmapTexture {
   WrapMode wrap = WrapMode::kRepeat;
   FilterType filter = FilterType::kBilinear;
 };
-/// plugin `checkerboard`: color0 where (frac(u) > 0.5) != (frac(v) > 0.5), color1 elsewhere. Either colour may
-/// itself be a texture in Mitsuba; here both are constants (a texture is refused as unsupported).
+/// plugin `checkerboard`: color0 where (frac(u) > 0.5) == (frac(v) > 0.5), color1 elsewhere; as a scalar the other way
+/// round. A texture there is looked up by its own to_uv, at the uv that the checkerboard was asked at.
 struct CheckerboardTexture {
-  dvec3 color0{0.4}, color1{0.2};
+  ColorInput color0{0.4}, color1{0.2};
 };
+constexpr int kMostCheckerboards = 4;  // inside one another
 /// plugin `mesh_attribute`: interpolates the attribute of that name (vertex_NAME, face_NAME) of the mesh hit.
 struct MeshAttributeTexture {
   std::string name;
@@ -73,22 +90,6 @@ struct Texture {
   FileLocation where;
   dmat3 to_uv{1};  // acts on (u, v, 1)
   std::variant<BitmapTexture, CheckerboardTexture, MeshAttributeTexture> kind;
-};
-
-/// A parameter that is a constant or a texture. As a scalar (alpha, weight, opacity, height) a texture of three
-/// channels counts as its luminance (.212671, .715160, .072169).
-struct ColorInput {
-  dvec3 value{0};
-  TextureIndex texture = kNone;
-  ColorInput() = default;
-  ColorInput(double grey) : value(grey) {}
-  ColorInput(dvec3 color) : value(color) {}
-};
-struct ScalarInput {
-  double value = 0;
-  TextureIndex texture = kNone;
-  ScalarInput() = default;
-  ScalarInput(double v) : value(v) {}
 };
 
 // ------------------------------------------------------------------------------------------------- bsdfs

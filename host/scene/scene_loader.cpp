@@ -101,9 +101,12 @@ void SceneLoader::load_unused() {
 
 /// A shape must have the attributes that its bsdf and its emitter ask for.
 void SceneLoader::check_mesh_attributes() const {
-  const auto check = [&](const Shape& shape, TextureIndex texture) {
-    const auto* wanted =
-        std::get_if<MeshAttributeTexture>(&scene.textures[static_cast<size_t>(texture)].kind);
+  const std::function<void(const Shape&, TextureIndex)> check = [&](const Shape& shape, TextureIndex texture) {
+    const auto& kind = scene.textures[static_cast<size_t>(texture)].kind;
+    if (const auto* board = std::get_if<CheckerboardTexture>(&kind))
+      for (const ColorInput* color : {&board->color0, &board->color1})
+        if (color->texture != kNone) check(shape, color->texture);
+    const auto* wanted = std::get_if<MeshAttributeTexture>(&kind);
     if (!wanted) return;
     if (const auto* mesh = std::get_if<MeshShape>(&shape.kind))
       for (const MeshAttribute& attribute : mesh->mesh->attributes)

@@ -3,7 +3,7 @@
 //   row 0: kind | format << 4 | filter << 8 | wrap << 12 | channels << 16; first texel; width; height
 //   row 1: to_uv row 0 (m00, m01, m02 as float bits); unused
 //   row 2: to_uv row 1; unused             (not for mesh attributes)
-//   checkerboard: row 3: color0 bits; row 4: color1 bits
+//   checkerboard: row 3: color0 bits, w: 1 + row of the texture that is there instead, or 0; row 4: color1, the same
 //   mesh attribute: row 0: kind | per vertex << 4; first row in kBindAttributes; first triangle; number of triangles;
 //                   row 3: scale bits. Rows of a triangle outside that range count as 0.
 // Attribute values (kBindAttributes, vec4 rows): one a triangle (face attributes), or three a triangle, of its
@@ -34,6 +34,7 @@ TACHYLITE_CONST uint kFilterBilinear = 1u;
 TACHYLITE_CONST uint kWrapRepeat = 0u;
 TACHYLITE_CONST uint kWrapMirror = 1u;
 TACHYLITE_CONST uint kWrapClamp = 2u;
+TACHYLITE_CONST uint kMostCheckerboards = 4u;  // inside one another
 
 // kFeatureTextures: which of the above occur in the scene.
 TACHYLITE_CONST uint kTexturesBitmap = 1u << 0u;
@@ -49,6 +50,7 @@ TACHYLITE_CONST uint kTexturesBilinear = 1u << 9u;
 TACHYLITE_CONST uint kTexturesRepeat = 1u << 12u;
 TACHYLITE_CONST uint kTexturesMirror = 1u << 13u;
 TACHYLITE_CONST uint kTexturesClamp = 1u << 14u;
+TACHYLITE_CONST uint kTexturesNested = 1u << 15u;  // some square of a checkerboard is a texture
 
 TACHYLITE_SHARED_END
 #endif

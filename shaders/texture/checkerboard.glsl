@@ -3,9 +3,10 @@
 #ifndef TACHYLITE_TEXTURE_CHECKERBOARD_GLSL
 #define TACHYLITE_TEXTURE_CHECKERBOARD_GLSL
 
-vec3 checkerboard_color(uvec4 color0, uvec4 color1, vec2 uv, bool as_scalar) {
+// Which of the rows color0 and color1 the point uv falls on.
+uvec4 checkerboard_square(uvec4 color0, uvec4 color1, vec2 uv, bool as_scalar) {
   bvec2 upper = greaterThan(uv - floor(uv), vec2(0.5));
-  return uintBitsToFloat((upper.x == upper.y) != as_scalar ? color0.xyz : color1.xyz);
+  return (upper.x == upper.y) != as_scalar ? color0 : color1;
 }
 
 #endif

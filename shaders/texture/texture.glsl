@@ -30,8 +30,28 @@ TextureTransform load_texture_transform(uint row) {
 
 vec2 transform_uv(TextureTransform m, vec2 uv) { return vec2(dot(m.m0, vec3(uv, 1.0)), dot(m.m1, vec3(uv, 1.0))); }
 
+uvec4 load_checkerboard_square(uint row, vec2 uv, bool as_scalar) {
+  return checkerboard_square(load_texture(row + 3u), load_texture(row + 4u), uv, as_scalar);
+}
+
+// The texture that is seen at a point: where a square of a checkerboard is a texture, that one. It is looked up at the
+// same uv, by its own to_uv; that of the checkerboard says which square it is.
+uint seen_texture(uint row, TexturePoint point, bool as_scalar) {
+  if (has_texture(kTexturesNested)) {
+    for (uint i = 0u; i < kMostCheckerboards; ++i) {
+      if ((load_texture(row).x & kTextureKindMask) != kTextureCheckerboard) break;
+      vec2 uv = transform_uv(load_texture_transform(row), point.uv);
+      uint inside = load_checkerboard_square(row, uv, as_scalar).w;
+      if (inside == 0u) break;
+      row = inside - 1u;
+    }
+  }
+  return row;
+}
+
 // Linear Rec.709. as_scalar: for a parameter that is a number.
 vec3 texture_value(uint row, TexturePoint point, bool as_scalar) {
+  row = seen_texture(row, point, as_scalar);
   uvec4 row0 = load_texture(row);
   uint kind = row0.x & kTextureKindMask;
   vec3 color = vec3(0.0);
@@ -39,7 +59,7 @@ vec3 texture_value(uint row, TexturePoint point, bool as_scalar) {
     vec2 uv = transform_uv(load_texture_transform(row), point.uv);
     if (has_texture(kTexturesBitmap) && kind == kTextureBitmap) color = bitmap_color(row0, uv);
     if (has_texture(kTexturesCheckerboard) && kind == kTextureCheckerboard)
-      color = checkerboard_color(load_texture(row + 3u), load_texture(row + 4u), uv, as_scalar);
+      color = uintBitsToFloat(load_checkerboard_square(row, uv, as_scalar).xyz);
   }
   if (has_texture(kTexturesAttribute) && kind == kTextureAttribute)
     color = attribute_color(row0, uintBitsToFloat(load_texture(row + 3u).x), point.primitive, point.barycentrics);
@@ -52,6 +72,7 @@ float texture_scalar(uint row, TexturePoint point) { return luminance(texture_va
 
 // (d scalar / du, d scalar / dv) of a bilinear bitmap, in the uv before to_uv; 0 for all others.
 vec2 texture_scalar_gradient(uint row, TexturePoint point) {
+  row = seen_texture(row, point, true);
   uvec4 row0 = load_texture(row);
   vec2 gradient = vec2(0.0);
   if (has_texture(kTexturesBitmap) && has_texture(kTexturesBilinear) &&

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <random>
 
 #include <fmt/format.h>
@@ -237,7 +238,7 @@ TEST_F(TextureLookup, Checkerboard) {
   Scene scene;
   Texture texture;
   texture.to_uv = glm::transpose(dmat3(4, 0, 0.1, 0, 6, 0, 0, 0, 1));
-  texture.kind = CheckerboardTexture{{0.1, 0.2, 0.6}, {0.8, 0.7, 0.2}};
+  texture.kind = CheckerboardTexture{dvec3(0.1, 0.2, 0.6), dvec3(0.8, 0.7, 0.2)};
   scene.textures.push_back(texture);
   const std::vector<glm::vec4> points = random_points(-2, 2, 5);
   const std::vector<Lookup> results = look_up(scene, 0, points);
@@ -250,6 +251,92 @@ TEST_F(TextureLookup, Checkerboard) {
     ASSERT_EQ(glm::vec3(results[i].color), same ? color0 : color1) << q.x << ' ' << q.y;
     ASSERT_NEAR(double{results[i].color.w}, luminance(same ? color1 : color0), 1e-6);
     ASSERT_EQ(results[i].gradient, glm::vec2(0));
+  }
+}
+
+/// Squares that are textures: bitmaps, a mesh attribute, checkerboards down to the last that may be.
+TEST_F(TextureLookup, CheckerboardsOfTextures) {
+  Scene scene;
+  const dmat3 outer = glm::transpose(dmat3(3, 1, 0.1, -0.4, 2, 0.3, 0, 0, 1));
+  const dmat3 inner = glm::transpose(dmat3(1.5, -0.7, 0.3, 0.4, 2.1, -0.2, 0, 0, 1));
+  const auto image = random_bitmap(6, 5, 3, TexelFormat::kUnorm8Srgb, 11);
+  const auto add = [&](Texture texture) {
+    scene.textures.push_back(std::move(texture));
+    ColorInput input;
+    input.texture = static_cast<TextureIndex>(scene.textures.size()) - 1;
+    return input;
+  };
+  const auto board = [&](const dmat3& to_uv, const ColorInput& color0, const ColorInput& color1) {
+    return add({{}, to_uv, CheckerboardTexture{color0, color1}});
+  };
+  const ColorInput bitmap = add(
+      bitmap_texture(image, TexelFormat::kUnorm8Srgb, WrapMode::kMirror, FilterType::kBilinear, inner));
+  const ColorInput red = dvec3(0.8, 0.2, 0.1), blue = dvec3(0.1, 0.2, 0.9);
+  const ColorInput second = board(inner, red, bitmap), third = board(dmat3(1), second, blue);
+  const ColorInput boards[] = {board(outer, bitmap, red), third, board(outer, third, second)};
+  ASSERT_EQ(gpu::kMostCheckerboards, 4u);
+  const ColorInput deepest = board(glm::transpose(dmat3(0.3, 0, 0, 0, 0.4, 0, 0, 0, 1)), red, boards[2]);
+
+  // What a point sees, by scene-format's words; none where it is too near to the edge of a square.
+  const auto seen = [&](ColorInput input, const dvec2& uv, bool scalar) -> std::optional<ColorInput> {
+    while (input.texture != kNone) {
+      const Texture& texture = scene.textures[static_cast<size_t>(input.texture)];
+      const auto* squares = std::get_if<CheckerboardTexture>(&texture.kind);
+      if (!squares) return input;
+      const dvec2 q(texture.to_uv * dvec3(uv, 1)), f = q - glm::floor(q);
+      if (std::min({std::abs(f.x - 0.5), std::abs(f.y - 0.5), f.x, f.y, 1 - f.x, 1 - f.y}) < 1e-4) return {};
+      input = ((f.x > 0.5) == (f.y > 0.5)) != scalar ? squares->color0 : squares->color1;
+    }
+    return input;
+  };
+  const ExactBitmap exact{scene.textures[static_cast<size_t>(bitmap.texture)]};
+  const std::vector<glm::vec4> points = random_points(-2, 2, 5);
+  for (const ColorInput& outermost : {boards[0], boards[1], boards[2], deepest}) {
+    SCOPED_TRACE(fmt::format("texture {}", outermost.texture));
+    const std::vector<Lookup> results = look_up(scene, static_cast<size_t>(outermost.texture), points);
+    int compared = 0, bitmaps = 0;
+    for (size_t i = 0; i < results.size(); ++i) {
+      const dvec2 uv(points[i]);
+      const auto color = seen(outermost, uv, false), scalar = seen(outermost, uv, true);
+      if (!color || !scalar || exact.to_edge(uv) < 1e-4) continue;
+      ++compared;
+      bitmaps += color->texture != kNone && scalar->texture == kNone;
+      const dvec3 c = color->texture == kNone ? color->value : exact.color(uv);
+      const dvec3 s = scalar->texture == kNone ? scalar->value : exact.color(uv);
+      for (int k = 0; k < 3; ++k) ASSERT_NEAR(double{results[i].color[k]}, c[k], 4e-5) << uv.x << ' ' << uv.y;
+      ASSERT_NEAR(double{results[i].color.w}, luminance(s), 4e-5) << uv.x << ' ' << uv.y;
+      const dvec2 g = scalar->texture == kNone ? dvec2(0) : exact.gradient(uv);
+      ASSERT_NEAR(double{results[i].gradient.x}, g.x, 2e-3) << uv.x << ' ' << uv.y;
+      ASSERT_NEAR(double{results[i].gradient.y}, g.y, 2e-3);
+    }
+    EXPECT_GT(compared, kPoints * 0.98);
+    EXPECT_GT(bitmaps, kPoints / 20);
+  }
+}
+
+TEST_F(TextureLookup, CheckerboardOfConstantBitmapsIsOneOfColors) {
+  Scene scene;
+  const dmat3 to_uv = glm::transpose(dmat3(4, 0.3, 0.1, -0.2, 6, 0, 0, 0, 1));
+  const dvec3 colors[] = {{0.125, 0.25, 0.625}, {0.75, 0.5, 0.375}};
+  CheckerboardTexture of_bitmaps;
+  for (const int i : {0, 1}) {
+    auto bitmap = std::make_shared<Bitmap>();
+    bitmap->width = 3;
+    bitmap->height = 2;
+    bitmap->channels = 3;
+    for (int t = 0; t < 6; ++t)
+      for (int c = 0; c < 3; ++c) bitmap->floats.push_back(static_cast<float>(colors[i][c]));
+    scene.textures.push_back(bitmap_texture(bitmap, TexelFormat::kFloat, WrapMode::kRepeat, FilterType::kBilinear,
+                                            glm::transpose(dmat3(7, 1, 2, 3, 5, 4, 0, 0, 1))));
+    (i == 0 ? of_bitmaps.color0 : of_bitmaps.color1).texture = i;
+  }
+  scene.textures.push_back({{}, to_uv, of_bitmaps});
+  scene.textures.push_back({{}, to_uv, CheckerboardTexture{colors[0], colors[1]}});
+  const std::vector<glm::vec4> points = random_points(-2, 2, 6);
+  const std::vector<Lookup> nested = look_up(scene, 2, points), plain = look_up(scene, 3, points);
+  for (size_t i = 0; i < points.size(); ++i) {
+    ASSERT_LT(glm::length(nested[i].color - plain[i].color), 1e-6f) << points[i].x << ' ' << points[i].y;
+    ASSERT_EQ(nested[i].gradient, plain[i].gradient);
   }
 }
 
@@ -275,9 +362,13 @@ TEST_F(TextureLookup, MeshAttributes) {
     texture.kind = MeshAttributeTexture{name, 2};
     scene.textures.push_back(texture);
   }
+  CheckerboardTexture board;  // every point below is in one of its squares
+  board.color0.texture = board.color1.texture = 0;
+  scene.textures.push_back({{}, dmat3(1), board});
   std::vector<glm::vec4> points;
   for (uint32_t triangle : {0u, 2u, 3u, 5u}) points.emplace_back(0.25f, 0.5f, std::bit_cast<float>(triangle), 0);
-  const std::vector<Lookup> color = look_up(scene, 0, points), weight = look_up(scene, 1, points);
+  const std::vector<Lookup> color = look_up(scene, 0, points), weight = look_up(scene, 1, points),
+                            checkered = look_up(scene, 2, points);
   // 2 (0.25 v0 + 0.25 v1 + 0.5 v2)
   const glm::vec3 expected[] = {{0, 0, 0}, {0.5f, 1, 0.5f}, {1.0f, 0.75f, 4}, {0, 0, 0}};
   const float weights[] = {0, 4, 14, 0};
@@ -285,6 +376,7 @@ TEST_F(TextureLookup, MeshAttributes) {
     const glm::vec3 e = i == 2 ? glm::vec3(2 * (0.25f * 0 + 0.25f * 1 + 0.5f * 0.5f), 2 * (0.25f * 1 + 0.5f * 0.25f), 4)
                                : expected[i];
     EXPECT_LT(glm::length(glm::vec3(color[i].color) - e), 1e-6f) << i;
+    EXPECT_EQ(checkered[i].color, color[i].color) << i;
     EXPECT_EQ(glm::vec3(weight[i].color), glm::vec3(weights[i])) << i;
   }
 }

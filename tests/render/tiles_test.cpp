@@ -149,6 +149,10 @@ TEST_F(Tiles, Textures) {
   const std::string colors = rgb("color0", "0.9, 0.2, 0.4") + rgb("color1", "0.3, 0.7, 0.6");
   add("checkerboard", R"(<texture name="reflectance" type="checkerboard">)" + colors + "</texture>");
   add("checkerboard with to_uv", R"(<texture name="reflectance" type="checkerboard">)" + colors + to_uv + "</texture>");
+  add("checkerboard of textures",
+      R"(<texture name="reflectance" type="checkerboard">)" + bitmap("color0", "rgb.tga", to_uv) +
+          R"(<texture name="color1" type="checkerboard">)" + rgb("color0", "0.9, 0.2, 0.4") +
+          bitmap("color1", "float.hdr") + "</texture>" + to_uv + "</texture>");
   expect_tiles_agree(tiles, files, R"(<emitter type="constant"/>)", 128, 0.03);
 }
 

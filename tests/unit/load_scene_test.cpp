@@ -314,7 +314,7 @@ TEST_F(LoadScene, NormalAndHeightMaps) {
   const Scene flat = load_body(
       "<shape type=\"sphere\"><bsdf type=\"normalmap\"><spectrum type=\"srgb\" name=\"normalmap\">"
       "<rgb name=\"color\" value=\"0.5, 0.5, 1\"/></spectrum><bsdf type=\"diffuse\"/></bsdf></shape>");
-  EXPECT_EQ(only<CheckerboardTexture>(flat.textures).color0, dvec3(0.5, 0.5, 1));
+  EXPECT_EQ(only<CheckerboardTexture>(flat.textures).color0.value, dvec3(0.5, 0.5, 1));
   EXPECT_EQ(only<NormalMapBsdf>(flat.bsdfs).normalmap, 0);
   const Scene scaled = load_body(
       "<shape type=\"sphere\"><bsdf type=\"bumpmap\"><float name=\"scale\" value=\"3\"/><bsdf "
@@ -324,6 +324,50 @@ TEST_F(LoadScene, NormalAndHeightMaps) {
       "0.6.0");
   EXPECT_EQ(only<BumpMapBsdf>(scaled.bsdfs).scale, 15);
   EXPECT_EQ(scaled.textures.size(), 1);
+}
+
+TEST_F(LoadScene, CheckerboardsOfTextures) {
+  const auto board = [](const std::string& name, const std::string& inside) {
+    return "<texture type=\"checkerboard\" " + name + ">" + inside + "</texture>";
+  };
+  const auto sphere = [](const std::string& reflectance) {
+    return "<shape type=\"sphere\"><bsdf type=\"diffuse\">\n" + reflectance + "</bsdf></shape>";
+  };
+  const std::string stretched = "<transform name=\"to_uv\"><scale value=\"3\"/></transform>";
+  const Scene scene = load_body(board("id=\"inner\"", stretched) +
+                                sphere(board("name=\"reflectance\"", "<rgb name=\"color0\" value=\"0.1, 0.2, 0.3\"/>"
+                                                                     "<ref id=\"inner\" name=\"color1\"/>")));
+  ASSERT_EQ(scene.textures.size(), 2);
+  const auto& outer = std::get<CheckerboardTexture>(scene.textures[0].kind);
+  EXPECT_EQ(outer.color0.texture, kNone);
+  EXPECT_EQ(outer.color0.value, dvec3(0.1, 0.2, 0.3));
+  EXPECT_EQ(outer.color1.texture, 1);
+  EXPECT_EQ(std::get<CheckerboardTexture>(scene.textures[1].kind).color0.value, dvec3(0.4));
+  EXPECT_EQ(scene.textures[0].to_uv, dmat3(1));
+  EXPECT_EQ(scene.textures[1].to_uv[0][0], 3);
+
+  const auto complain = [&](const std::string& body) {
+    return complaint("<scene version=\"3.0.0\"><sensor type=\"perspective\"/>\n" + body + "</scene>");
+  };
+  std::string nest = board("name=\"color1\"", "");
+  for (int i = 0; i < kMostCheckerboards - 2; ++i) nest = board("name=\"color1\"", nest);
+  EXPECT_EQ(complain(sphere(board("name=\"reflectance\"", nest))), "");
+  EXPECT_EQ(complain(sphere(board("name=\"reflectance\"", board("name=\"color0\"", nest)))),
+            "scene.xml:3: checkerboards inside one another: expected at most 4");
+  // A tree of references that doubles at each step.
+  std::string tree = board("id=\"t0\"", "");
+  for (int i = 1; i < 60; ++i)
+    tree += board(fmt::format("id=\"t{}\"", i), fmt::format("<ref id=\"t{0}\" name=\"color0\"/>"
+                                                            "<ref id=\"t{0}\" name=\"color1\"/>", i - 1));
+  EXPECT_NE(complain(tree + sphere("<ref id=\"t59\" name=\"reflectance\"/>")).find("expected at most 4"),
+            std::string::npos);
+  EXPECT_NE(complain(board("id=\"a\"", "<ref id=\"a\" name=\"color0\"/>")).find("contains itself"), std::string::npos);
+  // The attribute is asked for on each shape that has the material.
+  const std::string attribute = board("id=\"a\"", "<texture type=\"mesh_attribute\" name=\"color0\">"
+                                                  "<string name=\"name\" value=\"vertex_heat\"/></texture>");
+  EXPECT_EQ(complain(attribute), "");
+  EXPECT_NE(complain(attribute + sphere("<ref id=\"a\" name=\"reflectance\"/>")).find("no attribute vertex_heat"),
+            std::string::npos);
 }
 
 TEST_F(LoadScene, PermissiveGoesOnWithoutTheUnknown) {

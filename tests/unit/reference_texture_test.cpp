@@ -95,6 +95,32 @@ TEST(ReferenceTexture, CheckerboardSwapsAsAScalar) {
   }
 }
 
+/// The square is chosen through the checkerboard's to_uv, what lies in it is looked up through its own alone. Asked for a
+/// scalar, an inner checkerboard swaps its colours, too.
+TEST(ReferenceTexture, SquaresOfACheckerboardMayBeTextures) {
+  Scene scene;
+  dmat3 twice(2), four_times(4);
+  twice[2][2] = four_times[2][2] = 1;
+  CheckerboardTexture outer{dvec3(0.25), dvec3(0.75)};
+  outer.color0.texture = 1;
+  outer.color1.texture = 2;
+  scene.textures.push_back({{}, twice, outer});
+  Texture bitmap = grey_texture(2, 1, {3, 5}, WrapMode::kRepeat, FilterType::kNearest);
+  bitmap.to_uv = four_times;
+  scene.textures.push_back(bitmap);
+  scene.textures.push_back({{}, four_times, CheckerboardTexture{dvec3(7), dvec3(9)}});
+  ScalarInput scalar;
+  scalar.texture = 0;
+  // The outer one has halves of equal kind at the first point, the inner ones are asked at (0.4, 0.4) and (1.2, 0.4).
+  EXPECT_EQ(eval_texture(scene, 0, {.uv = {0.1, 0.1}}), dvec3(3));
+  EXPECT_NEAR(eval_scalar(scene, scalar, {.uv = {0.1, 0.1}}), 9, 1e-12);
+  EXPECT_EQ(eval_texture(scene, 0, {.uv = {0.3, 0.1}}), dvec3(7));
+  EXPECT_NEAR(eval_scalar(scene, scalar, {.uv = {0.3, 0.1}}), 3, 1e-12);
+  // ... and at (0.6, 0.4), where the inner two differ.
+  EXPECT_EQ(eval_texture(scene, 0, {.uv = {0.15, 0.1}}), dvec3(5));
+  EXPECT_NEAR(eval_scalar(scene, scalar, {.uv = {0.15, 0.1}}), 7, 1e-12);
+}
+
 /// The gradient against central differences, through a rotation and scale of uv.
 TEST(ReferenceTexture, GradientMatchesDifferences) {
   Texture t = grey_texture(4, 4, {1, 5, 2, 7, 3, 8, 1, 0, 9, 4, 4, 6, 2, 2, 7, 5}, WrapMode::kRepeat,

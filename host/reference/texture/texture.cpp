@@ -6,16 +6,22 @@
 namespace tachylite::reference {
 namespace {
 
-dvec3 eval_kind(const BitmapTexture& texture, const dvec2& uv, const TextureCoordinates&) {
+/// Through to_uv.
+dvec2 own_uv(const Texture& texture, const TextureCoordinates& at) {
+  return dvec2(texture.to_uv * dvec3(at.uv, 1));
+}
+
+dvec3 eval_kind(const Scene&, const BitmapTexture& texture, const dvec2& uv, const TextureCoordinates&) {
   return eval_bitmap(texture, uv);
 }
-dvec3 eval_kind(const CheckerboardTexture& texture, const dvec2& uv, const TextureCoordinates&) {
-  return eval_checkerboard(texture, uv);
+dvec3 eval_kind(const Scene& scene, const CheckerboardTexture& texture, const dvec2& uv,
+                const TextureCoordinates& at) {
+  return eval_color(scene, square_as_color(texture, uv), at);
 }
 
 /// vertex_NAME is interpolated with the barycentrics, face_NAME is constant on a triangle; 0 where the mesh
 /// has none.
-dvec3 eval_kind(const MeshAttributeTexture& texture, const dvec2&, const TextureCoordinates& at) {
+dvec3 eval_kind(const Scene&, const MeshAttributeTexture& texture, const dvec2&, const TextureCoordinates& at) {
   if (!at.mesh) return dvec3(0);
   for (const MeshAttribute& attribute : at.mesh->attributes) {
     if (attribute.name != texture.name) continue;
@@ -43,16 +49,20 @@ dvec3 eval_kind(const MeshAttributeTexture& texture, const dvec2&, const Texture
 
 dvec3 eval_texture(const Scene& scene, TextureIndex index, const TextureCoordinates& at) {
   const Texture& texture = scene.textures[static_cast<size_t>(index)];
-  const dvec2 uv = dvec2(texture.to_uv * dvec3(at.uv, 1));
-  return std::visit([&](const auto& kind) { return eval_kind(kind, uv, at); }, texture.kind);
+  const dvec2 uv = own_uv(texture, at);
+  return std::visit([&](const auto& kind) { return eval_kind(scene, kind, uv, at); }, texture.kind);
 }
 
 dvec2 eval_texture_gradient(const Scene& scene, TextureIndex index, const TextureCoordinates& at) {
   const Texture& texture = scene.textures[static_cast<size_t>(index)];
+  const dvec2 uv = own_uv(texture, at);
+  if (const auto* checkerboard = std::get_if<CheckerboardTexture>(&texture.kind)) {
+    const TextureIndex inside = square_as_scalar(*checkerboard, uv).texture;
+    return inside == kNone ? dvec2(0) : eval_texture_gradient(scene, inside, at);
+  }
   const auto* bitmap = std::get_if<BitmapTexture>(&texture.kind);
   if (!bitmap) return dvec2(0);
-  const dvec2 gradient = eval_bitmap_gradient(*bitmap, dvec2(texture.to_uv * dvec3(at.uv, 1)));
-  return glm::transpose(glm::dmat2(texture.to_uv)) * gradient;
+  return glm::transpose(glm::dmat2(texture.to_uv)) * eval_bitmap_gradient(*bitmap, uv);
 }
 
 dvec3 eval_color(const Scene& scene, const ColorInput& input, const TextureCoordinates& at) {
@@ -63,7 +73,10 @@ double eval_scalar(const Scene& scene, const ScalarInput& input, const TextureCo
   if (input.texture == kNone) return input.value;
   const Texture& texture = scene.textures[static_cast<size_t>(input.texture)];
   if (const auto* checkerboard = std::get_if<CheckerboardTexture>(&texture.kind)) {
-    return eval_checkerboard_scalar(*checkerboard, dvec2(texture.to_uv * dvec3(at.uv, 1)));
+    const ColorInput& square = square_as_scalar(*checkerboard, own_uv(texture, at));
+    ScalarInput inside(luminance(square.value));
+    inside.texture = square.texture;
+    return eval_scalar(scene, inside, at);
   }
   return luminance(eval_texture(scene, input.texture, at));
 }

@@ -18,8 +18,8 @@ struct TextureCoordinates {
 };
 
 dvec3 eval_texture(const Scene& scene, TextureIndex texture, const TextureCoordinates& at);
-/// d(scalar)/d(u, v) of the interpolated texels, through to_uv. Zero for nearest lookup and for other
-/// plugins.
+/// d(scalar)/d(u, v) of the interpolated texels, through to_uv. Zero for nearest lookup and for other plugins, but for
+/// bitmaps in the squares of a checkerboard.
 dvec2 eval_texture_gradient(const Scene& scene, TextureIndex texture, const TextureCoordinates& at);
 
 dvec3 eval_color(const Scene& scene, const ColorInput& input, const TextureCoordinates& at);
