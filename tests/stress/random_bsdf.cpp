@@ -8,38 +8,40 @@ class BsdfMaker {
   BsdfMaker(RandomSource& random, SceneText& scene, const BsdfChoice& choice)
       : random_(random), scene_(scene), choice_(choice) {}
 
-  Element make(int adapters, bool transmits, bool bumped) {
-    if (adapters == 0 || !random_.chance(0.4)) return leaf(transmits);
-    switch (random_.below(bumped ? 5 : 3)) {
+  /// maps: at most this many normal and bump maps around each other.
+  Element make(int adapters, bool transmits, int maps) {
+    if (adapters == 0 || !random_.chance(random_.nested() ? 0.65 : 0.4)) return leaf(transmits);
+    switch (random_.below(maps > 0 ? 5 : 3)) {
       case 0:
-        return twosided(adapters);
+        return twosided(adapters, maps);
       case 1:
-        if (!transmits) return twosided(adapters);
-        return plugin("bsdf", "mask").add(scalar("opacity", 0, 1)).add(make(adapters - 1, transmits, bumped));
+        if (!transmits) return twosided(adapters, maps);
+        return plugin("bsdf", "mask").add(scalar("opacity", 0, 1)).add(make(adapters - 1, transmits, maps));
       case 2: {
         Element blend = plugin("bsdf", "blendbsdf").add(scalar("weight", 0, 1));
-        blend.add(make(adapters - 1, transmits, bumped));
-        return blend.add(make(adapters - 1, transmits, bumped));
+        blend.add(make(adapters - 1, transmits, maps));
+        return blend.add(make(adapters - 1, transmits, maps));
       }
       case 3:
-        return map("normalmap", adapters, transmits)
+        return map("normalmap", adapters, transmits, maps)
             .add(random_texture(random_, scene_, "normalmap", 0.35, 0.95, false));
       default: {
-        Element bump = map("bumpmap", adapters, transmits).add(real("scale", random_.uniform(0.01, 0.2)));
+        Element bump = map("bumpmap", adapters, transmits, maps).add(real("scale", random_.uniform(0.01, 0.2)));
         return bump.add(random_texture(random_, scene_, "height", 0, 1, true));
       }
     }
   }
 
  private:
-  Element twosided(int adapters) {
-    Element two = plugin("bsdf", "twosided").add(make(adapters - 1, false, false));
-    if (random_.chance(0.3)) two.add(make(adapters - 1, false, false));
+  Element twosided(int adapters, int maps) {
+    const int inside = random_.nested() ? maps : 0;
+    Element two = plugin("bsdf", "twosided").add(make(adapters - 1, false, inside));
+    if (random_.chance(0.3)) two.add(make(adapters - 1, false, inside));
     return two;
   }
 
-  Element map(const char* type, int adapters, bool transmits) {
-    Element map = plugin("bsdf", type).add(make(adapters - 1, transmits, false));
+  Element map(const char* type, int adapters, bool transmits, int maps) {
+    Element map = plugin("bsdf", type).add(make(adapters - 1, transmits, random_.nested() ? maps - 1 : 0));
     if (random_.chance(0.3)) map.add(boolean("flip_invalid_normals", random_.chance(0.5)));
     if (random_.chance(0.3)) map.add(boolean("use_shadowing_function", random_.chance(0.5)));
     return map;
@@ -155,7 +157,9 @@ class BsdfMaker {
 }  // namespace
 
 Element random_bsdf(RandomSource& random, SceneText& scene, const BsdfChoice& choice) {
-  return BsdfMaker(random, scene, choice).make(choice.adapters, choice.transmits, choice.bumped);
+  const bool nested = random.nested();
+  const int adapters = choice.adapters > 0 && nested ? choice.adapters + 1 : choice.adapters;
+  return BsdfMaker(random, scene, choice).make(adapters, choice.transmits, choice.bumped ? 1 + nested : 0);
 }
 
 }  // namespace tachylite::test

@@ -29,6 +29,49 @@ std::string other_image(RandomSource& random, SceneText& scene, double low, doub
   return name;
 }
 
+Element make_texture(RandomSource& random, SceneText& scene, const std::string& name, const std::string& use, double low,
+                     double high, bool grey, bool attribute, int boards);
+
+/// A colour, or where it may be another texture.
+Element square(RandomSource& random, SceneText& scene, const std::string& name, const std::string& use, double low,
+               double high, bool attribute, int boards) {
+  if (random.nested() && random.chance(0.6))
+    return make_texture(random, scene, name, use, low, high, false, attribute, boards);
+  return parameter("rgb", name, random.rgb(low, high));
+}
+
+/// use: the parameter of the bsdf; name: that, or the square of a checkerboard. boards: at most this many inside one
+/// another.
+Element make_texture(RandomSource& random, SceneText& scene, const std::string& name, const std::string& use, double low,
+                     double high, bool grey, bool attribute, int boards) {
+  if (attribute && random.chance(0.3)) {
+    Element texture = plugin("texture", name, "mesh_attribute").add(word("name", "vertex_color"));
+    return texture.add(real("scale", random.uniform(0.5, 1) * std::min(1.0, high)));
+  }
+  Element texture;
+  const bool map = use == "normalmap" || use == "height";
+  if (random.chance(0.3) && (random.nested() ? boards > 0 : !map)) {
+    texture = plugin("texture", name, "checkerboard");
+    texture.add(square(random, scene, "color0", use, low, high, attribute, boards - 1));
+    texture.add(square(random, scene, "color1", use, low, high, attribute, boards - 1));
+  } else {
+    texture = plugin("texture", name, "bitmap");
+    texture.add(word("filename", random_image(random, scene, low, high, grey && random.chance(0.5), random.chance(0.3))));
+    if (random.chance(0.5)) texture.add(word("wrap_mode", random.pick({"repeat", "mirror", "clamp"})));
+    if (random.chance(0.4)) texture.add(word("filter_type", random.pick({"nearest", "bilinear"})));
+    if (use == "normalmap" || random.chance(0.4)) texture.add(boolean("raw", true));
+  }
+  if (random.chance(0.4)) {
+    Element to_uv = {"transform", {{"name", "to_uv"}}, {}};
+    const double x = random.uniform(0.5, 4), y = random.uniform(0.5, 4);
+    to_uv.add({"scale", {{"x", fmt::format("{:.4g}", x)}, {"y", fmt::format("{:.4g}", y)}}, {}});
+    if (random.chance(0.3))
+      to_uv.add({"rotate", {{"z", "1"}, {"angle", fmt::format("{:.4g}", random.uniform(0, 360))}}, {}});
+    texture.add(to_uv);
+  }
+  return texture;
+}
+
 }  // namespace
 
 std::string random_image(RandomSource& random, SceneText& scene, double low, double high, bool grey, bool floats) {
@@ -51,31 +94,7 @@ std::string random_image(RandomSource& random, SceneText& scene, double low, dou
 
 Element random_texture(RandomSource& random, SceneText& scene, const std::string& name, double low, double high,
                        bool grey, bool attribute) {
-  if (attribute && random.chance(0.3)) {
-    Element texture = plugin("texture", name, "mesh_attribute").add(word("name", "vertex_color"));
-    return texture.add(real("scale", random.uniform(0.5, 1) * std::min(1.0, high)));
-  }
-  Element texture;
-  if (random.chance(0.3) && name != "normalmap" && name != "height") {
-    texture = plugin("texture", name, "checkerboard");
-    texture.add(parameter("rgb", "color0", random.rgb(low, high)));
-    texture.add(parameter("rgb", "color1", random.rgb(low, high)));
-  } else {
-    texture = plugin("texture", name, "bitmap");
-    texture.add(word("filename", random_image(random, scene, low, high, grey && random.chance(0.5), random.chance(0.3))));
-    if (random.chance(0.5)) texture.add(word("wrap_mode", random.pick({"repeat", "mirror", "clamp"})));
-    if (random.chance(0.4)) texture.add(word("filter_type", random.pick({"nearest", "bilinear"})));
-    if (name == "normalmap" || random.chance(0.4)) texture.add(boolean("raw", true));
-  }
-  if (random.chance(0.4)) {
-    Element to_uv = {"transform", {{"name", "to_uv"}}, {}};
-    const double x = random.uniform(0.5, 4), y = random.uniform(0.5, 4);
-    to_uv.add({"scale", {{"x", fmt::format("{:.4g}", x)}, {"y", fmt::format("{:.4g}", y)}}, {}});
-    if (random.chance(0.3))
-      to_uv.add({"rotate", {{"z", "1"}, {"angle", fmt::format("{:.4g}", random.uniform(0, 360))}}, {}});
-    texture.add(to_uv);
-  }
-  return texture;
+  return make_texture(random, scene, name, name, low, high, grey, attribute, 3);
 }
 
 }  // namespace tachylite::test

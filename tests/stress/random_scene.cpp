@@ -114,7 +114,7 @@ void add_surroundings(RandomSource& random, SceneText& scene) {
 }  // namespace
 
 SceneText random_scene(uint64_t seed) {
-  RandomSource random(seed / kScenesOfTheme + 1, seed + 1, seed >= kFirstWideSeed);
+  RandomSource random(seed / kScenesOfTheme + 1, seed + 1, (seed >= kFirstWideSeed) + (seed >= kFirstNestedSeed));
   SceneText scene;
   const bool media = random.chance(0.35);
   const bool fog = media && random.chance(0.2);  // around the camera

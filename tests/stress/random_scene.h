@@ -3,7 +3,8 @@
 // Scenes made at random from everything that the scene format knows: shapes and small meshes, materials with adapters
 // around them, textures, homogeneous and grid media, lights, cameras, filters and integrators. From kFirstWideSeed on
 // also auxiliary channels, ways to sample light, PNG and EXR files, media within media, and scenes a thousand times
-// smaller to ten thousand times larger.
+// smaller to ten thousand times larger; from kFirstNestedSeed on normal and bump maps inside one another and inside
+// `twosided`, and checkerboards of textures.
 
 #include <cstdint>
 #include <string>
@@ -18,6 +19,7 @@ constexpr uint64_t kScenesOfTheme = 16;
 
 /// Seeds below have made their scenes since before there were others, and still do.
 constexpr uint64_t kFirstWideSeed = 10'000'000;
+constexpr uint64_t kFirstNestedSeed = 20'000'000;
 
 /// The same on every machine. About the unit ball (but for what scale_scene does to it), the camera 2.5 to 5 away from
 /// the centre.

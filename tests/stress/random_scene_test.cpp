@@ -2,6 +2,8 @@
 // is in judge_scene.h: false alarms are 1e-7 a scene; the first pair of images, 512 samples of some 300 pixels, shows
 // biases of the mean of typically 3 to 10 %.
 
+#include <functional>
+
 #include <gtest/gtest.h>
 
 #include "stress/judge_scene.h"
@@ -29,6 +31,29 @@ TEST(RandomSceneText, FollowsFromItsSeed) {
   EXPECT_EQ(a.xml(), b.xml());
   EXPECT_EQ(a.files, b.files);
   EXPECT_NE(a.xml(), c.xml());
+}
+
+// What the latest generator is there for does occur.
+TEST(RandomSceneText, HasWhatIsNested) {
+  int maps = 0, boards = 0, sides = 0;
+  // Counts elements of one type that lie in one of another, at any depth.
+  const std::function<int(const Element&, std::string_view, std::string_view, bool)> count =
+      [&](const Element& element, std::string_view outer, std::string_view inner, bool inside) {
+        const std::string* type = element.attribute("type");
+        int found = inside && type && type->ends_with(inner);
+        inside |= type && type->ends_with(outer);
+        for (const Element& child : element.children) found += count(child, outer, inner, inside);
+        return found;
+      };
+  for (uint64_t seed = kFirstNestedSeed; seed < kFirstNestedSeed + 10 * kScenesOfTheme; seed += kScenesOfTheme)
+    for (const Element& element : random_scene(seed).elements) {
+      maps += count(element, "map", "map", false) - count(element, "map", "bitmap", false);
+      sides += count(element, "map", "twosided", false);
+      boards += count(element, "checkerboard", "bitmap", false) + count(element, "checkerboard", "board", false);
+    }
+  EXPECT_GT(maps, 2);
+  EXPECT_GT(sides, 2);
+  EXPECT_GT(boards, 2);
 }
 
 TEST(MinimiseScene, KeepsWhatFails) {

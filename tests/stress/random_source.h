@@ -14,11 +14,12 @@ namespace tachylite::test {
 /// that kernels compiled for one serve all of them.
 class RandomSource {
  public:
-  RandomSource(uint64_t theme, uint64_t scene, bool wide) : wide_(wide), kind_(theme), value_(scene) {}
+  RandomSource(uint64_t theme, uint64_t scene, int generation) : generation_(generation), kind_(theme), value_(scene) {}
 
-  /// Whether the scene may have what the first generator lacked. Only then may that draw numbers, or old seeds would
-  /// no longer make their scenes.
-  bool wide() const { return wide_; }
+  /// Whether the scene may have what the first generator lacked, and what the second did. Only then may that draw
+  /// numbers, or old seeds would no longer make their scenes.
+  bool wide() const { return generation_ >= 1; }
+  bool nested() const { return generation_ >= 2; }
 
   // From the theme.
   bool chance(double probability) { return kind_.uniform() < probability; }
@@ -40,7 +41,7 @@ class RandomSource {
   std::string point(double low, double high) { return rgb(low, high); }
 
  private:
-  bool wide_;
+  int generation_;
   Pcg32 kind_, value_;
 };
 
