@@ -265,7 +265,9 @@ PackedMaterials pack_materials(const Scene& scene, std::span<const uint32_t> row
     if (found == packed.classes.end()) packed.classes.push_back(*material_class);
     static_assert(gpu::kMaxClasses <= gpu::kClassNone);
     if (packed.classes.size() > gpu::kMaxClasses)
-      throw InputError(scene.bsdfs[bsdf].where, fmt::format("more than {} kinds of material", gpu::kMaxClasses));
+      throw InputError(scene.bsdfs[bsdf].where,
+                       fmt::format("more than {} kinds of material (sets of bsdfs that are shaded together)",
+                                   gpu::kMaxClasses));
   }
   return packed;
 }
