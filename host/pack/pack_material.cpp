@@ -29,6 +29,7 @@ struct FlatLeaf {
   PackedLeaf leaf;
   std::vector<Weight> weights;
   uint32_t mirrors = 0;
+  uint32_t sides = 0;         // kSide...
   std::vector<Frame> frames;  // from outside in
 };
 enum Side { kFront = 1, kBack = 2 };
@@ -37,7 +38,8 @@ struct Context {
   std::vector<Weight> weights;
   uint32_t mirrors = 0;
   std::vector<Frame> frames;
-  int sides = kFront | kBack;
+  // Of the surface, and of the frames inside the maps: where a viewer sees it.
+  std::array<int, gpu::kMostFrames + 1> sides = {kFront | kBack, kFront | kBack, kFront | kBack};
 };
 struct FlatMaterial {
   std::array<std::vector<std::shared_ptr<const FlatLeaf>>, 2> lists;  // in front, behind
@@ -99,17 +101,16 @@ class Flattener {
       mirror(front);
       return visit(two_sided.front, front);
     }
-    // Two children: the viewer's side of the surface picks one. Inside another `twosided` it is always the front.
+    // Two children: the viewer's side of the surface, or of the frame inside the map, picks one. Where a `twosided` has
+    // mirrored there already, it is always the front.
+    const size_t depth = context.frames.size();
+    if ((context.mirrors & gpu::kMirrorOuter << depth) != 0) return visit(two_sided.front, front);
     Context back = front;
-    front.sides &= kFront;
-    back.sides &= kBack;
-    if (context.mirrors != 0) {
-      front.sides = context.sides;
-      back.sides = 0;
-    }
+    front.sides[depth] &= kFront;
+    back.sides[depth] &= kBack;
     mirror(back);
-    if (front.sides != 0) visit(two_sided.front, front);
-    if (back.sides != 0) visit(two_sided.back, back);
+    if (front.sides[depth] != 0) visit(two_sided.front, front);
+    if (back.sides[depth] != 0) visit(two_sided.back, back);
   }
   void visit_kind(const Bsdf& bsdf, const NormalMapBsdf& map, const Context& context) {
     visit_framed(bsdf, map.child, {gpu::kFrameNormalMap, frame_options(map), map.normalmap, 1.0}, context);
@@ -146,10 +147,16 @@ class Flattener {
     context.mirrors |= gpu::kMirrorOuter << context.frames.size();
   }
   void add(PackedLeaf leaf, const Context& context) {
-    auto flat = std::make_shared<const FlatLeaf>(
-        FlatLeaf{std::move(leaf), context.weights, context.mirrors, context.frames});
-    if (context.sides & kFront) material_.lists[0].push_back(flat);
-    if (context.sides & kBack) material_.lists[1].push_back(flat);
+    static_assert(gpu::kSideFrontInner == kFront && gpu::kSideBackInner == kBack &&
+                  gpu::kSideFrontInnermost == kFront << 2 && gpu::kSideBackInnermost == kBack << 2);
+    const auto restricted = [&](size_t depth) {
+      const int sides = context.sides[depth];
+      return static_cast<uint32_t>(sides == (kFront | kBack) ? 0 : sides);
+    };
+    auto flat = std::make_shared<const FlatLeaf>(FlatLeaf{std::move(leaf), context.weights, context.mirrors,
+                                                          restricted(1) | restricted(2) << 2, context.frames});
+    if (context.sides[0] & kFront) material_.lists[0].push_back(flat);
+    if (context.sides[0] & kBack) material_.lists[1].push_back(flat);
   }
 
   const Scene& scene_;
@@ -183,9 +190,12 @@ std::optional<MaterialClass> class_of(const FlatMaterial& material) {
       if (!flat->frames.empty())
         result.flags |= gpu::kMaterialHasFrames | gpu::kMaterialTextured | gpu::kMaterialTangent;
       if (flat->frames.size() > 1) result.flags |= gpu::kMaterialNestedFrames;
+      if (flat->sides != 0) result.flags |= gpu::kMaterialMapSides;
       (flat->mirrors & gpu::kMirrorOuter ? outer : not_outer) += 1;
     }
   }
+  // Then there are leaves for the other side, too; single leaves are always seen.
+  CHECK((result.flags & gpu::kMaterialMapSides) == 0 || result.max_leaves > 1);
   if (!scatters) return std::nullopt;
   if (material.lists[0] != material.lists[1] || (outer != 0 && not_outer != 0))
     result.flags |= gpu::kMaterialSides;
@@ -234,7 +244,7 @@ class MaterialWriter {
     for (const Weight& weight : flat.weights)
       rows_.push_back(input_row(dvec3(weight.input.value), texture_row(weight.input.texture) |
                                                                (weight.complement ? gpu::kInputComplement : 0u)));
-    rows_[head] = {flat.leaf.type | flat.mirrors << 8 | flat.leaf.options << 16,
+    rows_[head] = {flat.leaf.type | flat.mirrors << 8 | flat.sides << gpu::kSideShift | flat.leaf.options << 16,
                    static_cast<uint32_t>(flat.weights.size()) | first_weight << 16,
                    kinds, static_cast<uint32_t>(rows_.size() - head)};
   }

@@ -21,6 +21,14 @@ vec3 albedo_of_leaf(uint leaf, uint type, TexturePoint point) {
   return color;
 }
 
+// Whether the leaf is for viewers on that side of the surface: here maps do not count.
+bool is_leaf_on_side(uint header, bool front) {
+  uint mirrors = header >> 8u, sides = header >> kSideShift;
+  bool inner = front || (mirrors & kMirrorOuter) != 0u, innermost = inner || (mirrors & kMirrorInner) != 0u;
+  uint others = (inner ? kSideBackInner : kSideFrontInner) | (innermost ? kSideBackInnermost : kSideFrontInnermost);
+  return (sides & others) == 0u;
+}
+
 vec3 material_albedo(Interaction it, vec3 wo) {
   vec3 sum = vec3(0.0);
   uvec4 material = load_material_row(it.material);
@@ -29,7 +37,8 @@ vec3 material_albedo(Interaction it, vec3 wo) {
   for (uint i = 0u; i < max_leaves; ++i) {
     if (i < count) {
       uvec4 header = load_material_row(leaf);
-      sum += load_leaf_weight(leaf, header, it.point) * albedo_of_leaf(leaf, header.x & 0xffu, it.point);
+      vec3 part = load_leaf_weight(leaf, header, it.point) * albedo_of_leaf(leaf, header.x & 0xffu, it.point);
+      if (!has_material(kMaterialMapSides) || is_leaf_on_side(header.x, front)) sum += part;
       leaf += header.w;
     }
   }

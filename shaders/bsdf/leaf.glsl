@@ -106,6 +106,19 @@ void set_leaf_frame(inout Leaf leaf, uint row, uvec4 header, Interaction it, vec
   leaf.wo = to_leaf(leaf, wo);
 }
 
+// Whether the viewer is on the side of the frames inside the maps that the leaf is for.
+bool is_leaf_on_side(uint row, uvec4 header, Interaction it, vec3 wo) {
+  uint sides = (header.x >> kSideShift) & 0xfu;
+  Leaf leaf;
+  set_leaf_frame(leaf, row, header, it, wo);
+  float innermost = leaf.n_side * leaf.wo.z, inner = innermost;
+  IF_NESTED_MAPS(if (has_material(kMaterialNestedFrames) && (header.z >> 16u) != kFrameNone)
+                   inner = leaf.outer_side * dot(leaf.n_shading, wo);)
+  uint others = (inner > 0.0 ? kSideBackInner : kSideFrontInner) |
+                (innermost > 0.0 ? kSideBackInnermost : kSideFrontInnermost);
+  return (sides & others) == 0u;
+}
+
 // The leaf that begins at row `row` and whose first row is `header` (undefined where has_leaf_headers() is false).
 Leaf load_leaf(uint row, uvec4 header, Interaction it, vec3 wo_world) {
   Leaf leaf;

@@ -29,6 +29,7 @@ SurfaceBsdf load_bsdf(Interaction it, vec3 wo) {
   for (uint i = 0u; i < max_leaves; ++i) {
     uvec4 header = load_material_row(row);
     b.weights[i] = i < b.count ? load_leaf_weight(row, header, it.point) : 0.0;
+    if (has_material(kMaterialMapSides) && !is_leaf_on_side(row, header, it, wo)) b.weights[i] = 0.0;
     sum += b.weights[i];
     row = next_leaf(b, i, row, header);
   }

@@ -20,6 +20,9 @@ vec3 null_transmission_bsdf(uint material, TexturePoint point, vec3 n_s, vec3 wo
   for (uint i = 0u; i < (passes ? count : 0u); ++i) {
     uvec4 header = load_material_row(row);
     float weight = load_leaf_weight(row, header, point);
+    // Of the leaves of two sides inside a map, those in front weigh as much as those behind.
+    if (has_material(kMaterialMapSides) &&
+        (header.x & ((kSideBackInner | kSideBackInnermost) << kSideShift)) != 0u) weight = 0.0;
     sum += weight;
     if (has_bsdf(kBsdfThinDielectric) && (header.x & 0xffu) == kBsdfThinDielectric)
       panes += weight * null_transmission_thin_dielectric(load_thin_dielectric(row, point), dot(n_s, wo));

@@ -8,9 +8,9 @@
 // Material: row 0 = (number of leaves in front | behind << 8, flags kMaterial..., first leaf in front, first leaf
 //   behind). Both lists may be the same. Where the flags lack kMaterialSides the one list begins in row 1.
 // Leaf, from its first row on:
-//   row 0: type (kBsdf...) | mirrors << 8 | options << 16; number of weights | row of the first weight (counted
-//          from the leaf's first row) << 16; frame kind | frame options << 8, of the map inside it, if any, << 16;
-//          rows to the next leaf
+//   row 0: type (kBsdf...) | mirrors << 8 | sides << 12 | options << 16; number of weights | row of the first weight
+//          (counted from the leaf's first row) << 16; frame kind | frame options << 8, of the map inside it, if any,
+//          << 16; rows to the next leaf
 //   then the inputs and constants of its type, as its file in shaders/bsdf says; then, for each frame kind that is not
 //   kFrameNone, one row (scale bits, unused, unused, texture row), the outer one first; then the weights, one scalar
 //   input each (kInputComplement in the texture word: use 1 - value). A weight is clamped to [0, 1].
@@ -44,6 +44,14 @@ TACHYLITE_CONST uint kMirrorOuter = 1u;
 TACHYLITE_CONST uint kMirrorInner = 2u;
 TACHYLITE_CONST uint kMirrorInnermost = 4u;
 
+// Sides of a leaf: it is there only for viewers in front of, or behind, the frame inside the outer map, and that inside
+// the map in it (`twosided` with two bsdfs within maps). The leaves of both sides stand in the list.
+TACHYLITE_CONST uint kSideShift = 12u;
+TACHYLITE_CONST uint kSideFrontInner = 1u;
+TACHYLITE_CONST uint kSideBackInner = 2u;
+TACHYLITE_CONST uint kSideFrontInnermost = 4u;
+TACHYLITE_CONST uint kSideBackInnermost = 8u;
+
 // Options of a leaf.
 TACHYLITE_CONST uint kOptionGgx = 1u;          // else Beckmann
 
@@ -75,6 +83,7 @@ TACHYLITE_CONST uint kMaterialNull = 1024u;      // a null part: shadow rays may
 TACHYLITE_CONST uint kMaterialTransmits = 2048u; // principled: spec_trans
 TACHYLITE_CONST uint kMaterialClearcoat = 4096u; // principled: clearcoat
 TACHYLITE_CONST uint kMaterialNestedFrames = 8192u;  // a normal or bump map inside another
+TACHYLITE_CONST uint kMaterialMapSides = 16384u; // some leaf has sides
 TACHYLITE_CONST uint kMaterialMaxLeaves = 8u;    // in one list
 TACHYLITE_CONST uint kRoughTransmittanceSize = 64u;  // entries of roughplastic's table
 

@@ -196,6 +196,10 @@ TEST_F(Tiles, Nestings) {
   add("two-sided inside", bump(normal(two_sided(red))), true, true);
   add("two sides in a map", normal(two_sided(red + blue)), true, true);
   add("two sides below two-sided", normal(two_sided(two_sided(red + blue))), true, true);
+  // From the side of a map's frame that is not the surface's one sees the other bsdf, by the light behind the surface.
+  for (const bool behind : {false, true})
+    tiles.push_back({behind ? "two sides in a steep map from behind" : "two sides in a steep map", "rectangle",
+                     normal(two_sided(red + blue), no_flip) + boolean("flip_normals", behind)});
   add("mask of null", mask(bsdf("null", "")));
   add("blend of glass and metal", blend(glass, gold));
   expect_tiles_agree(tiles, files, R"(<emitter type="constant"><rgb name="radiance" value="0.4"/></emitter>

@@ -347,7 +347,7 @@ TEST_F(LoadScene, CheckerboardsOfTextures) {
   EXPECT_EQ(scene.textures[1].to_uv[0][0], 3);
 
   const auto complain = [&](const std::string& body) {
-    return complaint("<scene version=\"3.0.0\"><sensor type=\"perspective\"/>\n" + body + "</scene>");
+    return complaint("<scene version=\"3.0.0\"><sensor type=\"perspective\"/><emitter type=\"constant\"/>\n" + body + "</scene>");
   };
   std::string nest = board("name=\"color1\"", "");
   for (int i = 0; i < kMostCheckerboards - 2; ++i) nest = board("name=\"color1\"", nest);

@@ -104,11 +104,16 @@ TEST(ReferenceTexture, SquaresOfACheckerboardMayBeTextures) {
   CheckerboardTexture outer{dvec3(0.25), dvec3(0.75)};
   outer.color0.texture = 1;
   outer.color1.texture = 2;
-  scene.textures.push_back({{}, twice, outer});
+  Texture texture;
+  texture.to_uv = twice;
+  texture.kind = outer;
+  scene.textures.push_back(texture);
   Texture bitmap = grey_texture(2, 1, {3, 5}, WrapMode::kRepeat, FilterType::kNearest);
   bitmap.to_uv = four_times;
   scene.textures.push_back(bitmap);
-  scene.textures.push_back({{}, four_times, CheckerboardTexture{dvec3(7), dvec3(9)}});
+  texture.to_uv = four_times;
+  texture.kind = CheckerboardTexture{dvec3(7), dvec3(9)};
+  scene.textures.push_back(texture);
   ScalarInput scalar;
   scalar.texture = 0;
   // The outer one has halves of equal kind at the first point, the inner ones are asked at (0.4, 0.4) and (1.2, 0.4).

@@ -38,7 +38,9 @@ struct Albedo {
   dvec3 operator()(const MicrofacetBsdf& b) const { return point.color(b.kd); }
   dvec3 operator()(const PaperBsdf& b) const { return (1 - part(b.transparency)) * point.color(b.reflectance); }
   dvec3 operator()(const NullBsdf&) const { return dvec3(0); }
-  dvec3 operator()(const TwoSidedBsdf& b) const { return of(from_front ? b.front : b.back); }
+  dvec3 operator()(const TwoSidedBsdf& b) const { 
+    return Albedo{point, true}.of(from_front ? b.front : b.back);  // whose viewer it has mirrored to the front
+  }
   dvec3 operator()(const MaskBsdf& b) const { return part(b.opacity) * of(b.child); }
   dvec3 operator()(const BlendBsdf& b) const {
     const double w = part(b.weight);
