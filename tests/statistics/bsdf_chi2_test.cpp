@@ -22,6 +22,7 @@ namespace {
 constexpr int kSamples = 20000;
 constexpr int kPilotSamples = 6000;
 constexpr double kPi = std::numbers::pi;
+constexpr double kLittleLost = 1e-3;
 
 glm::vec3 direction(double degrees, double azimuth = 0.4) {
   const double theta = degrees * kPi / 180;
@@ -46,7 +47,15 @@ std::vector<glm::vec4> directions_of(const std::vector<BsdfAnswer>& answers) {
 
 struct Bsdf : DeviceTest {};
 
-void expect_density(const std::vector<MaterialCase>& cases, const std::vector<double>& angles) {
+// How far float32 moves the half vector of wo and a wi near the horizon, against the width alpha of the lobe: an ulp of
+// their long sides over the height of wo.
+double lost_to_rounding(double alpha, const glm::vec3& wo) { return 6e-8 / alpha / std::abs(wo.z); }
+
+// most_lost: cases in which rounding loses more are left out. It moves the density at a direction to and fro, for a narrow
+// lobe alone by up to 3.2 times that (Beckmann's falls by 2 r dr where its slope, over alpha, is r; of 20,000 samples r
+// reaches 3.2, and the nearest float32 is half an ulp off): over a bin that averages out, but sampled and evaluated
+// density of one direction differ by it.
+void expect_density(const std::vector<MaterialCase>& cases, const std::vector<double>& angles, double most_lost) {
   std::vector<BsdfKind> kinds;
   for (const MaterialCase& c : cases) kinds.push_back(c.kind);
   BsdfProbe probe(scene_of_bsdfs(kinds));
@@ -58,8 +67,7 @@ void expect_density(const std::vector<MaterialCase>& cases, const std::vector<do
     for (const double angle : angles) {
       if (angle > 90 && !c.two_sided) continue;
       const glm::vec3 wo = direction(angle);
-      // Two directions near the horizon, rounded, have lost the half vector of a narrow lobe: bsdf_grazing_test.
-      if (6e-8 / c.alpha / std::abs(wo.z) > 1e-3) continue;
+      if (lost_to_rounding(c.alpha, wo) > most_lost) continue;
       SCOPED_TRACE(fmt::format("{}, {} degrees", c.name, angle));
       const auto answers = probe.ask(sample_queries(bsdf, wo, kSamples, 17));
       double worst_weight = 0, worst_pdf = 0;
@@ -92,10 +100,12 @@ void expect_density(const std::vector<MaterialCase>& cases, const std::vector<do
 
 const std::vector<double> kAngles = {0, 50, 85, 89, 89.9, 90.1, 130, 180};
 
-TEST_F(Bsdf, AllMaterialsDrawFromTheirDensity) { expect_density(all_materials(), kAngles); }
-TEST_F(Bsdf, CoatedOnesDrawFromTheirDensity) { expect_density(coated_materials(), kAngles); }
+TEST_F(Bsdf, AllMaterialsDrawFromTheirDensity) { expect_density(all_materials(), kAngles, kLittleLost); }
+// The narrowest coat at 89.9 and 90.1 degrees loses 3.4e-3.
+TEST_F(Bsdf, CoatedOnesDrawFromTheirDensity) { expect_density(coated_materials(), kAngles, 4e-3); }
 
-// Seen from both sides, an interface has the eta of another one: at each roughness every other eta suffices.
+// Seen from both sides, an interface has the eta of another one: at each roughness every other eta suffices. What is
+// narrower for its angle is in bsdf_grazing_test, against densities in double precision.
 TEST_F(Bsdf, RoughOnesDrawFromTheirDensity) {
   std::vector<MaterialCase> cases;
   int interfaces = 0;
@@ -104,7 +114,7 @@ TEST_F(Bsdf, RoughOnesDrawFromTheirDensity) {
     if (c.eta != 1) ++interfaces;
     if (c.eta == 1 || (i % 4 + i / 4) % 2 == 0) cases.push_back(c);
   }
-  expect_density(cases, kAngles);
+  expect_density(cases, kAngles, kLittleLost);
 }
 
 }  // namespace
