@@ -104,6 +104,12 @@ SceneMeasurement bench_scene(const BenchArguments& arguments, const MeasureOptio
   const ScratchFolder scratch;
   std::vector<Contestant> contestants = {
       {"tachylite", [&](uint64_t samples, uint32_t seed) { return renders.render(samples, seed); }, 0}};
+  RenderOptions adaptive_options = options;
+  adaptive_options.adaptive = true;
+  const SceneRenders adaptive_renders(device, packed, adaptive_options, {cpu.seconds(), wall.seconds()});
+  if (arguments.adaptive)
+    contestants.push_back(
+        {"adaptive", [&](uint64_t samples, uint32_t seed) { return adaptive_renders.render(samples, seed); }, 0});
   for (const ExternalRenderer& renderer : externals)
     contestants.push_back(external_contestant(renderer, arguments, file, scratch));
   measure_scene(result, contestants, reference ? &*reference : nullptr, measure);

@@ -23,6 +23,7 @@ struct BenchArguments {
   std::vector<std::string> scaling;  // names of series
   double scaling_seconds = 20;       // a point that takes longer by the clock is a series' last
   std::string device;
+  bool adaptive = false;  // a contestant of its own
   SamplerKind sampler = SamplerKind::kSobol;
   uint32_t max_paths = RenderOptions{}.max_paths;
   bool json = false, quiet = false;

@@ -1,6 +1,7 @@
 #include "command_render.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -25,6 +26,7 @@ RenderOptions render_options(const RenderArguments& arguments, const Sensor& sen
   options.max_paths = arguments.max_paths;
   options.time_limit = arguments.time;
   options.error_limit = arguments.error;
+  options.adaptive = arguments.adaptive;
   options.timing = !arguments.stats.empty();
   return options;
 }
@@ -88,7 +90,7 @@ int write_render(const RenderArguments& arguments, const OutputFiles& outputs, F
   }
   const Timer write_timer;
   const bool exr = std::any_of(outputs.begin(), outputs.end(), [](const auto& file) { return file.extension() == ".exr"; });
-  Image image = render.film.to_image(exr && arguments.sums);
+  Image image = render.film.to_image(exr && arguments.sums && !render.film.is_adaptive());
   image.metadata.merge(render.identity);
   image.metadata.merge(std::map<std::string, std::string>{
       {"scene", arguments.scene.file.string()},
@@ -101,8 +103,8 @@ int write_render(const RenderArguments& arguments, const OutputFiles& outputs, F
   if (!arguments.stats.empty()) write_statistics(arguments.stats, statistics);
 
   std::string line =
-      fmt::format("{}{} samples in {} ({:.3g} Mpaths/s)", render.interrupted ? "interrupted after " : "",
-                  statistics.spp, format_duration(statistics.seconds.render), statistics.mpaths_per_s());
+      fmt::format("{}{}{} samples in {} ({:.3g} Mpaths/s)", render.interrupted ? "interrupted after " : "",
+                  render.film.is_adaptive() ? "on average " : "", statistics.spp, format_duration(statistics.seconds.render), statistics.mpaths_per_s());
   if (const double error = render.film.relative_error(); error > 0)
     line += fmt::format(", relative error {:.2g} %", 100 * error);
   for (const std::filesystem::path& file : outputs) line += fmt::format(", {}", file.string());
@@ -195,7 +197,7 @@ int run_render(const RenderArguments& arguments) {
   }
 
   finished.film = std::move(*film);
-  finished.statistics.spp = finished.film.samples();
+  finished.statistics.spp = static_cast<uint64_t>(std::llround(finished.film.mean_samples()));
   finished.statistics.seconds.load = load_seconds;
   finished.interrupted = interrupt->requested();
   return write_render(arguments, outputs, finished, total);

@@ -25,6 +25,7 @@ struct RenderArguments {
   bool sums = true;                             // .exr files hold what merging and resuming need
   double time = 0, error = 0;  // limits: seconds, relative standard error of the mean pixel; 0: none
   std::string device;
+  bool adaptive = false;
   SamplerKind sampler = SamplerKind::kSobol;
   uint32_t max_paths = RenderOptions{}.max_paths;
   std::filesystem::path stats;  // empty: none

@@ -154,6 +154,7 @@ void add_bench_options(CLI::App& command, BenchArguments& arguments, int& thread
   command.add_option("--external", arguments.externals, "a further renderer")
       ->type_name("'name=NAME;spp=MOST;command=...'")
       ->allow_extra_args(false);
+  command.add_flag("--adaptive", arguments.adaptive, "adaptive sampling beside the usual");
   command.add_option("--against", arguments.against, "an earlier report, for ratios")->type_name("BASELINE.json");
   command.add_option("--scaling", arguments.scaling, "cost as work grows: " + fmt::format("{}", fmt::join(scaling_names(), ",")))
       ->type_name("LIST")
@@ -191,6 +192,9 @@ int run(int argc, char** argv) {
   RenderArguments render;
   CLI::App& render_command = *app.add_subcommand("render", "renders on a Vulkan device");
   add_render_options(render_command, render, threads);
+  render_command
+      .add_flag("--adaptive", render.adaptive, "more samples where the image is noisier, without bias; N is their mean")
+      ->excludes("--resume");
 
   RenderArguments reference;
   CLI::App& reference_command = *app.add_subcommand("reference", "renders on the CPU reference");

@@ -69,6 +69,18 @@ uint64_t FilmBuffer::samples() const {
   return sum;
 }
 
+double FilmBuffer::mean_samples() const {
+  uint64_t sum = 0;
+  for (const OwnBlocks& own : own_) sum += own.samples;
+  return static_cast<double>(samples()) + static_cast<double>(sum) / static_cast<double>(pixels());
+}
+
+void FilmBuffer::finish_own_blocks(size_t index, uint64_t blocks, uint64_t samples) {
+  if (own_.empty()) own_.resize(pixels());
+  own_[index].blocks += static_cast<uint32_t>(blocks);
+  own_[index].samples += static_cast<uint32_t>(samples);
+}
+
 void FilmBuffer::finish_blocks(const SampleRange& range, uint64_t blocks) {
   blocks_ += blocks;
   const auto after = std::find_if(ranges_.begin(), ranges_.end(),
@@ -87,6 +99,7 @@ void FilmBuffer::finish_blocks(const SampleRange& range, uint64_t blocks) {
 }
 
 void FilmBuffer::merge(const FilmBuffer& other) {
+  CHECK(!is_adaptive() && !other.is_adaptive());
   CHECK_EQ(width_, other.width_);
   CHECK_EQ(height_, other.height_);
   CHECK_EQ(extra_names_.size(), other.extra_names_.size());
@@ -104,21 +117,21 @@ void FilmBuffer::merge(const FilmBuffer& other) {
 }
 
 glm::dvec3 FilmBuffer::mean(size_t index) const {
-  const double n = static_cast<double>(std::max<uint64_t>(samples(), 1));
+  const double n = static_cast<double>(std::max<uint64_t>(samples_of(index), 1));
   return glm::dvec3(sums_[0].value(index), sums_[1].value(index), sums_[2].value(index)) / n;
 }
 
 double FilmBuffer::extra_mean(size_t index, size_t channel) const {
-  return extra_[channel].value(index) / static_cast<double>(std::max<uint64_t>(samples(), 1));
+  return extra_[channel].value(index) / static_cast<double>(std::max<uint64_t>(samples_of(index), 1));
 }
 
 glm::dvec3 FilmBuffer::variance_of_mean(size_t index) const {
   if (!has_variance()) return glm::dvec3(0);
-  const double n = static_cast<double>(samples());
+  const double n = static_cast<double>(samples_of(index));
   const glm::dvec3 sum(sums_[0].value(index), sums_[1].value(index), sums_[2].value(index));
   const glm::dvec3 square(squares_[0].value(index), squares_[1].value(index), squares_[2].value(index));
   const glm::dvec3 scatter = square - sum * sum / n;
-  return glm::max(scatter, glm::dvec3(0)) / (static_cast<double>(blocks_ - 1) * n);
+  return glm::max(scatter, glm::dvec3(0)) / (static_cast<double>(blocks_of(index) - 1) * n);
 }
 
 double FilmBuffer::relative_error() const {
@@ -158,8 +171,11 @@ Image FilmBuffer::to_image(bool sums) const {
       add(std::string("variance.") + kColors[c], [&](size_t i) { return variance_of_mean(i)[c]; });
   for (size_t c = 0; c < extra_.size(); ++c)
     add(extra_names_[c], [&](size_t i) { return extra_mean(i, c); });
-  if (!count_channel_.empty()) add(count_channel_, [&](size_t) { return samples(); });
+  const auto count = [&](size_t i) { return samples_of(i); };
+  if (!count_channel_.empty()) add(count_channel_, count);
+  if (is_adaptive()) add("samples", count);
   if (!sums) return image;
+  CHECK(!is_adaptive());
 
   for (const NamedSums& named : const_cast<FilmBuffer*>(this)->all_sums())
     for (size_t w = 0; w < 4; ++w) {
@@ -176,7 +192,7 @@ FilmBuffer FilmBuffer::from_image(const Image& image, const std::string& place) 
   const auto attribute = [&](const char* key) -> std::string_view {
     const auto found = image.metadata.find(key);
     if (found == image.metadata.end())
-      throw InputError(fmt::format("{}: has no attribute {}: it was not written by render or reference, or with --no-sums",
+      throw InputError(fmt::format("{}: has no attribute {}: it was not written by render or reference, or with --no-sums or --adaptive",
                                    place, key));
     return found->second;
   };

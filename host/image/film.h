@@ -29,9 +29,14 @@ class FilmBuffer {
   int width() const { return width_; }
   int height() const { return height_; }
   size_t pixels() const { return static_cast<size_t>(width_) * static_cast<size_t>(height_); }
-  uint64_t samples() const;  // per pixel, of all finished blocks
+  uint64_t samples() const;  // that every pixel has: of all finished blocks
   const std::vector<SampleRange>& ranges() const { return ranges_; }  // sorted, not touching
   uint64_t blocks() const { return blocks_; }
+  /// Adaptive sampling: whether pixels have blocks of their own; all samples of a pixel; and their mean over the image.
+  bool is_adaptive() const { return !own_.empty(); }
+  uint64_t samples_of(size_t index) const { return samples() + (is_adaptive() ? own_[index].samples : 0); }
+  uint64_t blocks_of(size_t index) const { return blocks_ + (is_adaptive() ? own_[index].blocks : 0); }
+  double mean_samples() const;
   const std::vector<std::string>& extra_channels() const { return extra_names_; }
 
   /// Adds to pixel `index` (row-major) a block whose `n` samples sum to `sum`. Different pixels may be added to by
@@ -42,6 +47,13 @@ class FilmBuffer {
       squares_[static_cast<size_t>(c)].add(index, sum[c] * sum[c] / static_cast<double>(n));
     }
   }
+  /// Adaptive sampling: counts `blocks` blocks of pixel `index` alone, of `samples` samples, that have been added to it.
+  /// They are not among ranges(): such a film cannot be merged. Not while other threads read.
+  void finish_own_blocks(size_t index, uint64_t blocks, uint64_t samples);
+  /// What decides how many own blocks a pixel gets (wavefront/adaptive_sampling.h), kept for who goes on; or empty.
+  const std::vector<float>& sampling_density() const { return density_; }
+  void set_sampling_density(std::vector<float> density) { density_ = std::move(density); }
+
   /// Extra channels (AOVs): sums of samples, no variance.
   void add_extra(size_t index, size_t channel, double sum) { extra_[channel].add(index, sum); }
 
@@ -63,8 +75,9 @@ class FilmBuffer {
   /// The channels are taken to err together, as those of a path do: of coloured noise an over-estimate.
   double relative_error() const;
 
-  /// R G B and, with two blocks or more, variance.R/G/B; then the extra channels. With `sums` also all that merging
-  /// needs: word channels sums.NAME.0 to .3 and squares.NAME.0 to .3, and metadata sample_ranges and blocks.
+  /// R G B and, with two blocks or more, variance.R/G/B; then the extra channels; of adaptive sampling `samples`. With
+  /// `sums` (not of an adaptive film) also all that merging needs: word channels sums.NAME.0 to .3 and squares.NAME.0
+  /// to .3, and metadata sample_ranges and blocks.
   Image to_image(bool sums = false) const;
   /// The film that an image with sums was made of. Throws InputError, which begins with the place, where they lack or
   /// are broken.
@@ -75,11 +88,16 @@ class FilmBuffer {
     std::string name;
     ReproducibleSums* sums;
   };
+  struct OwnBlocks {
+    uint32_t blocks = 0, samples = 0;
+  };
   std::vector<NamedSums> all_sums();
 
   int width_, height_;
   uint64_t blocks_ = 0;
   std::vector<SampleRange> ranges_;
+  std::vector<OwnBlocks> own_;  // a pixel each, or empty
+  std::vector<float> density_;
   ReproducibleSums sums_[3], squares_[3];
   std::vector<std::string> extra_names_;
   std::vector<ReproducibleSums> extra_;

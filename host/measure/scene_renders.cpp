@@ -26,7 +26,7 @@ TimedImage SceneRenders::render(uint64_t samples, uint32_t seed) const {
   result.render = {all.cpu - compile_.cpu, all.wall - compile_.wall};
   result.total = {before_.cpu + all.cpu, before_.wall + all.wall};
   const RenderStatistics& statistics = renderer.statistics();
-  if (film.samples() < samples) throw RenderError("interrupted");
+  if (!options.adaptive && film.samples() < samples) throw RenderError("interrupted");
   if (statistics.nonfinite > 0 || statistics.overflow > 0)
     throw RenderError(fmt::format("{} contributions were not finite, {} did not fit their queues",
                                   statistics.nonfinite, statistics.overflow));

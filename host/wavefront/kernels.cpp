@@ -31,14 +31,14 @@ std::string class_name(const MaterialClass& c) {
 }  // namespace
 
 Kernels build_kernels(vulkan::Device& device, const vulkan::BindingTable& table, const FeatureSet& features,
-                      const RenderOptions& options, const BakedGeometry* baked) {
+                      const RenderOptions& options, uint64_t end_sample, const BakedGeometry* baked) {
   SpecializationConstants common = features.constants();
-  const uint64_t end = options.first_sample + options.samples;
-  const uint32_t log2_samples = static_cast<uint32_t>(std::bit_width(end - 1));
+  const auto log2_samples = static_cast<uint32_t>(std::bit_width(end_sample - 1));
   const auto with_sampler = [&](SpecializationConstants constants) {
     constants[gpu::kFeatureSampler] =
         options.sampler == SamplerKind::kIndependent ? gpu::kSamplerIndependent : gpu::kSamplerSobol;
     constants[gpu::kFeatureLog2Samples] = log2_samples;
+    constants[gpu::kFeaturePixelList] = options.adaptive;
     return constants;
   };
   common = with_sampler(common);

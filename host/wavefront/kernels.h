@@ -21,8 +21,8 @@ struct Kernels {
   std::vector<std::string> run, skipped;  // stages, for people
 };
 
-/// The stages, or with `baked` the one kernel for whole paths.
+/// The stages, or with `baked` the one kernel for whole paths. All samples of a pixel lie below `end_sample`.
 Kernels build_kernels(vulkan::Device& device, const vulkan::BindingTable& table, const FeatureSet& features,
-                      const RenderOptions& options, const BakedGeometry* baked);
+                      const RenderOptions& options, uint64_t end_sample, const BakedGeometry* baked);
 
 }  // namespace tachylite

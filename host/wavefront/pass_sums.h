@@ -1,11 +1,16 @@
 #pragma once
 
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "image/film.h"
 #include "pack/pack_scene.h"
 
 namespace tachylite {
+
+/// Place in the image (row-major) of a pixel in tile order; none outside.
+std::optional<size_t> pixel_index(const gpu::RenderParams& params, uint32_t tile_pixel);
 
 /// The sums of one pass: a few blocks of samples of all pixels, gathered wave by wave as the device wrote them (tile
 /// order) and added to the film at once, so that an interrupted pass leaves no trace there.
@@ -15,12 +20,21 @@ class PassSums {
 
   std::vector<std::string> extra_channels() const;
 
+  /// Adaptive sampling: adds the blocks of a wave whose pixels are `listed` (pixel in tile order, first block; those of
+  /// one pixel side by side) to the film, and counts them. Nothing is taken before.
+  void add_listed_to(FilmBuffer& film, const gpu::WaveParams& wave, std::span<const glm::uvec2> listed,
+                     const glm::vec4* film_block, const glm::vec4* aov_block) const;
+
   /// film, aov: the device's blocks after `wave`; aov may be null.
   void take(const gpu::WaveParams& wave, const glm::vec4* film, const glm::vec4* aov);
   /// Adds block `block` of the pass, which has n samples a pixel. Does not finish the film's blocks.
   void add_block_to(FilmBuffer& film, uint32_t block, uint64_t n) const;
 
  private:
+  /// value(row): of film (0) and each kind of AOV.
+  template <class Value>
+  void add_block(FilmBuffer& film, size_t pixel, uint64_t n, const Value& value) const;
+
   gpu::RenderParams params_;
   uint32_t all_pixels_ = 0, blocks_ = 0;
   std::vector<Aov> aovs_;

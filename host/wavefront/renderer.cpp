@@ -1,7 +1,10 @@
 #include "wavefront/renderer.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <limits>
+#include <span>
 
 #include "base/check.h"
 #include "base/error.h"
@@ -9,6 +12,7 @@
 #include "shared/bindings.h"
 #include "shared/counters.h"
 #include "shared/path_state.h"
+#include "wavefront/adaptive_sampling.h"
 #include "wavefront/kernels.h"
 #include "wavefront/pass_sums.h"
 #include "wavefront/scene_buffers.h"
@@ -20,10 +24,12 @@ using gpu::kBlockSamples;
 using gpu::WaveParams;
 using vulkan::Buffer;
 
+constexpr uint64_t kMostSamples = uint64_t{1} << 24;  // of a pixel
 constexpr uint32_t kTilePixels = gpu::kTileSize * gpu::kTileSize;
 constexpr uint32_t kFusedPaths = 1u << 24;  // at most, of one dispatch that follows whole paths
 constexpr uint32_t kFirstFusedPaths = 1u << 20;  // of the first: less than a second on one slow core
 constexpr uint32_t kFusedBlocks = 8;
+constexpr auto kLeastPilotBlocks = static_cast<uint32_t>(kLeastPilot / gpu::kBlockSamples);
 constexpr uint32_t kBouncesPerSubmit = 16;  // between two looks at the queue's length; fewer where they take longer
 constexpr double kLongestSubmission = 0.3;  // seconds
 
@@ -56,6 +62,12 @@ WaveSize wave_size(const gpu::RenderParams& params, const RenderOptions& options
   return size;
 }
 
+// The samples of every pixel lie below this index.
+uint64_t end_of_samples(const RenderOptions& options) {
+  const uint64_t share = options.adaptive ? uint64_t{kLargestShare} : 1;
+  return std::min(options.first_sample + share * options.samples, kMostSamples);
+}
+
 std::optional<BakedGeometry> choose_baked(const PackedScene& scene, const RenderOptions& options) {
   if (options.structure == KernelStructure::kStages) return std::nullopt;
   std::optional<BakedGeometry> baked = bake_geometry(scene);
@@ -82,21 +94,39 @@ struct Renderer::Impl {
   uint32_t capacity = 0;
   uint32_t bounces_per_submit = kBouncesPerSubmit;
   uint32_t pixels_per_wave = 0;
-  uint64_t begun_samples = 0;  // that the film had before
   WaveSize size;
   RenderStatistics statistics;
   std::vector<Buffer> buffers;
   Buffer* counters = nullptr;
   Buffer* film_block = nullptr;
-  Buffer* aov_block = nullptr;  // null: no auxiliary channels
+  Buffer* aov_block = nullptr;   // null: no auxiliary channels
+  Buffer* pixel_list = nullptr;  // null: pixels are not listed
   std::unique_ptr<vulkan::BindingTable> table;
   Kernels kernels;
   vulkan::Commands commands;
 
+  // Of the render that goes on.
+  Timer timer;
+  RenderProgress progress;
+  uint64_t begun_paths = 0;        // that the film had before
+  uint64_t estimated_samples = 0;  // when progress.relative_error was computed
+
   Impl(vulkan::Device& d, const PackedScene& s, const RenderOptions& o);
   /// False where `goes_on`, which is asked now and then, said so: the wave is abandoned.
   bool render_wave(WaveParams wave, const std::function<bool()>& goes_on);
-  void finish(const FilmBuffer& film, const Timer& timer);
+  /// Passes over all pixels, to options.samples or the end of the pilot. False where the render is over.
+  bool add_passes(FilmBuffer& film, PassSums& sums);
+  /// What comes after the pilot.
+  void add_where_noisy(FilmBuffer& film, const PassSums& sums);
+  /// To the caller, who may say stop; the film has `pixel_samples_more` to come, summed over its pixels.
+  bool report(const FilmBuffer& film, uint64_t pixel_samples_more);
+  bool within_limits(const FilmBuffer& film);
+  bool is_pilot_enough(const FilmBuffer& film) const;
+  double next_samples(double samples) const;
+  static uint64_t paths_of(const FilmBuffer& film);
+  void list_pixels(const WaveParams& wave);
+  const glm::vec4* mapped_film() const { return static_cast<const glm::vec4*>(film_block->mapped()); }
+  const glm::vec4* mapped_aovs() const { return aov_block ? static_cast<const glm::vec4*>(aov_block->mapped()) : nullptr; }
   void record_bounce(WaveParams& wave);
   void dispatch_pixels(const Kernels::Pointer& kernel, const WaveParams& wave);
   void warm_up();
@@ -106,18 +136,19 @@ struct Renderer::Impl {
 
 Renderer::Impl::Impl(vulkan::Device& d, const PackedScene& s, const RenderOptions& o)
     : device(d), scene(s), features(scene.features), options(o), params(scene.params), commands(d) {
+  options.adaptive = options.adaptive && pilot_samples(options.samples) < options.samples;
   baked = choose_baked(scene, options);
   params.capacity = capacity = capacity_for(params, options);
   size = wave_size(params, options, capacity, baked.has_value());
   pixels_per_wave = baked ? std::min(size.pixels, kFirstFusedPaths / (size.blocks * kBlockSamples)) : size.pixels;
   params.seed = options.seed;
-  params.end_sample = static_cast<uint32_t>(options.first_sample + options.samples);
+  params.end_sample = static_cast<uint32_t>(end_of_samples(options));
 
   params.aov_stride = size.pixels * size.blocks;
 
   Timer upload;
   std::vector<BufferPlan> plan = 
-      plan_buffers(scene, params, capacity, uint64_t{size.pixels} * size.blocks, baked ? &*baked : nullptr);
+      plan_buffers(scene, params, capacity, uint64_t{size.pixels} * size.blocks, options.adaptive, baked ? &*baked : nullptr);
   std::vector<vulkan::Binding> bindings;
   buffers.reserve(plan.size());
   for (BufferPlan& p : plan) {
@@ -129,6 +160,7 @@ Renderer::Impl::Impl(vulkan::Device& d, const PackedScene& s, const RenderOption
       if (p.bindings[0].number == gpu::kBindCounters) counters = &buffer;
       if (p.bindings[0].number == gpu::kBindFilm) film_block = &buffer;
       if (p.bindings[0].number == gpu::kBindAov) aov_block = &buffer;
+      if (p.bindings[0].number == gpu::kBindPixelList) pixel_list = &buffer;
     }
     for (vulkan::Binding binding : p.bindings) {
       binding.buffer = made;
@@ -142,7 +174,7 @@ Renderer::Impl::Impl(vulkan::Device& d, const PackedScene& s, const RenderOption
 
   Timer compile;
   table = std::make_unique<vulkan::BindingTable>(device, bindings, sizeof(WaveParams));
-  kernels = build_kernels(device, *table, features, options, baked ? &*baked : nullptr);
+  kernels = build_kernels(device, *table, features, options, params.end_sample, baked ? &*baked : nullptr);
   warm_up();
   statistics.compile_seconds = compile.seconds();
   commands.set_timing(options.timing);
@@ -275,8 +307,8 @@ void Renderer::Impl::take_counters() {
 Renderer::Renderer(vulkan::Device& device, const PackedScene& scene, const RenderOptions& options) : scene_(scene) {
   if (options.first_sample % kBlockSamples != 0)
     throw InputError(fmt::format("--first-sample must be a multiple of {}", kBlockSamples));
-  if (options.samples == 0 || options.first_sample + options.samples > (uint64_t{1} << 24))
-    throw InputError(fmt::format("samples must lie in 1..{} together with the first sample", 1 << 24));
+  if (options.samples == 0 || options.first_sample + options.samples > kMostSamples)
+    throw InputError(fmt::format("samples must lie in 1..{} together with the first sample", kMostSamples));
   const MemoryPlan plan = plan_memory(device.info(), scene, options);
   for (const MemoryPlan::Entry& e : plan.buffers)
     if (e.bytes > e.limit)
@@ -297,45 +329,81 @@ FilmBuffer Renderer::new_film(const PackedScene& scene) {
 
 void Renderer::render_into(FilmBuffer& film) {
   Impl& r = *impl_;
-  const gpu::RenderParams& params = r.params;
-  const WaveSize size = r.size;
-  const uint32_t all_pixels = params.tile_count * kTilePixels;
-  const uint64_t first_block = r.options.first_sample / kBlockSamples;
-  const uint64_t end_sample = r.options.first_sample + r.options.samples;
-  const uint64_t end_block = (end_sample + kBlockSamples - 1) / kBlockSamples;
   CHECK(film.samples() == 0 || film.ranges() == (std::vector<SampleRange>{{r.options.first_sample, film.samples()}}));
   CHECK(film.samples() % kBlockSamples == 0 || film.samples() == r.options.samples);
+  r.timer = Timer();
+  r.progress = RenderProgress{};
+  r.progress.target_samples = r.options.samples;
+  r.begun_paths = r.paths_of(film);
+  r.estimated_samples = 0;
+  PassSums sums(r.params, r.size.blocks, r.scene);
+  const bool goes_on = r.add_passes(film, sums);
+  if (goes_on && r.options.adaptive && film.has_variance()) r.add_where_noisy(film, sums);
+  r.statistics.render_seconds = r.timer.seconds();
+  r.statistics.kernels = r.commands.kernel_times();
+  r.statistics.paths = r.paths_of(film) - r.begun_paths;
+}
 
-  PassSums sums(params, size.blocks, r.scene);
-  Timer timer;
-  RenderProgress progress;
-  progress.target_samples = r.options.samples;
-  uint64_t estimated_samples = 0;
-  r.begun_samples = film.samples();
-  bool stop = film.samples() >= r.options.samples;
-  for (uint64_t block = first_block + film.samples() / kBlockSamples; block < end_block && !stop;) {
+uint64_t Renderer::Impl::paths_of(const FilmBuffer& film) {
+  return static_cast<uint64_t>(std::llround(film.mean_samples() * static_cast<double>(film.pixels())));
+}
+
+bool Renderer::Impl::report(const FilmBuffer& film, uint64_t pixel_samples_more) {
+  const double pixels = static_cast<double>(film.pixels());
+  const double samples = film.mean_samples() + static_cast<double>(pixel_samples_more) / pixels;
+  progress.samples = static_cast<uint64_t>(film.mean_samples());
+  progress.seconds = timer.seconds();
+  progress.fraction = samples / static_cast<double>(options.samples);
+  progress.mpaths_per_s = (samples * pixels - static_cast<double>(begun_paths)) * 1e-6 / progress.seconds;
+  return !options.progress || options.progress(progress);
+}
+
+bool Renderer::Impl::within_limits(const FilmBuffer& film) {
+  if (options.time_limit > 0 && timer.seconds() >= options.time_limit) return false;
+  // The estimate reads the whole film: anew where it decides, else when the samples have grown by a half.
+  const auto samples = static_cast<uint64_t>(film.mean_samples());
+  if (film.has_variance() && (options.error_limit > 0 || 2 * samples >= 3 * estimated_samples)) {
+    progress.relative_error = film.relative_error();
+    estimated_samples = samples;
+    if (options.error_limit > 0 && progress.relative_error <= options.error_limit) return false;
+  }
+  return true;
+}
+
+bool Renderer::Impl::is_pilot_enough(const FilmBuffer& film) const {
+  return options.adaptive && film.samples() >= kLeastPilot &&
+         ((options.time_limit > 0 && timer.seconds() >= options.time_limit / 4) ||
+          (options.error_limit > 0 && progress.relative_error <= 2 * options.error_limit));
+}
+
+bool Renderer::Impl::add_passes(FilmBuffer& film, PassSums& sums) {
+  if (!film.sampling_density().empty()) return true;
+  const uint32_t all_pixels = params.tile_count * kTilePixels;
+  const uint64_t first_block = options.first_sample / kBlockSamples;
+  const uint64_t end_sample =
+      options.first_sample + (options.adaptive ? pilot_samples(options.samples) : options.samples);
+  const uint64_t end_block = (end_sample + kBlockSamples - 1) / kBlockSamples;
+  for (uint64_t block = first_block + film.samples() / kBlockSamples; block < end_block;) {
     // One pass: a few blocks of samples for all pixels.
     WaveParams wave{};
     wave.first_block = static_cast<uint32_t>(block);
     wave.block_count = static_cast<uint32_t>(std::min<uint64_t>(size.blocks, end_block - block));
+    // A pilot that time or error end is doubled from pass to pass.
+    if (options.adaptive)
+      wave.block_count = std::min(wave.block_count, std::max(static_cast<uint32_t>(film.blocks()), kLeastPilotBlocks));
     const auto goes_on = [&](uint32_t pixels_done) {
-      const double pass = static_cast<double>(pixels_done) / all_pixels;
-      progress.samples = film.samples();
-      progress.seconds = timer.seconds();
-      progress.fraction = (static_cast<double>(block - first_block) + pass * wave.block_count) /
-                          static_cast<double>(end_block - first_block);
-      progress.mpaths_per_s = static_cast<double>(r.statistics.paths) * 1e-6 / progress.seconds;
-      return !r.options.progress || r.options.progress(progress);
+      const double done = static_cast<double>(pixels_done) / all_pixels * static_cast<double>(film.pixels());
+      return report(film, static_cast<uint64_t>(done * wave.block_count * kBlockSamples));
     };
+    bool stop = false;
     for (uint32_t pixel = 0; pixel < all_pixels && !stop; pixel += wave.pixel_count) {
       wave.first_pixel = pixel;
-      wave.pixel_count = std::min(r.pixels_per_wave, all_pixels - pixel);
-      if (!r.render_wave(wave, [&] { return goes_on(pixel); })) return r.finish(film, timer);
-      sums.take(wave, static_cast<const glm::vec4*>(r.film_block->mapped()),
-                r.aov_block ? static_cast<const glm::vec4*>(r.aov_block->mapped()) : nullptr);
-      r.statistics.paths += uint64_t{wave.pixel_count} * wave.block_count * kBlockSamples;
+      wave.pixel_count = std::min(pixels_per_wave, all_pixels - pixel);
+      list_pixels(wave);
+      if (!render_wave(wave, [&] { return goes_on(pixel); })) return false;
+      sums.take(wave, mapped_film(), mapped_aovs());
       stop = !goes_on(pixel + wave.pixel_count);
-      if (stop && pixel + wave.pixel_count < all_pixels) return r.finish(film, timer);
+      if (stop && pixel + wave.pixel_count < all_pixels) return false;
     }
 
     // Add the pass to the film.
@@ -345,21 +413,61 @@ void Renderer::render_into(FilmBuffer& film) {
       film.finish_blocks({first, n});
     }
     block += wave.block_count;
-    if (r.options.time_limit > 0 && timer.seconds() >= r.options.time_limit) stop = true;
-    // The estimate reads the whole film: anew where it decides, else when the samples have grown by a half.
-    if (film.has_variance() && (r.options.error_limit > 0 || 2 * film.samples() >= 3 * estimated_samples)) {
-      progress.relative_error = film.relative_error();
-      estimated_samples = film.samples();
-      stop = stop || (r.options.error_limit > 0 && progress.relative_error <= r.options.error_limit);
-    }
+    if (!within_limits(film) || stop) return false;
+    if (is_pilot_enough(film)) break;
   }
-  r.finish(film, timer);
+  return true;
 }
 
-void Renderer::Impl::finish(const FilmBuffer& film, const Timer& timer) {
-  statistics.render_seconds = timer.seconds();
-  statistics.kernels = commands.kernel_times();
-  statistics.paths = uint64_t{film.pixels()} * (film.samples() - begun_samples);
+// Mean samples after the next pass of adaptive sampling: doubled, unless a limit comes before.
+double Renderer::Impl::next_samples(double samples) const {
+  double factor = 2;
+  if (options.error_limit > 0) factor = std::min(factor, std::pow(progress.relative_error / options.error_limit, 2));
+  if (options.time_limit > 0) factor = std::min(factor, options.time_limit / timer.seconds());
+  return samples * std::max(factor, 1.05);
+}
+
+void Renderer::Impl::list_pixels(const WaveParams& wave) {
+  if (!pixel_list) return;
+  std::vector<glm::uvec2> listed(wave.pixel_count);
+  for (uint32_t i = 0; i < wave.pixel_count; ++i) listed[i] = {wave.first_pixel + i, wave.first_block};
+  pixel_list->upload(listed.data(), listed.size() * sizeof(listed[0]));
+}
+
+void Renderer::Impl::add_where_noisy(FilmBuffer& film, const PassSums& sums) {
+  if (film.sampling_density().empty()) film.set_sampling_density(sampling_density(film));
+  const auto first_block = static_cast<uint32_t>(options.first_sample / kBlockSamples);
+  const auto most = static_cast<double>(options.samples);
+  // Many blocks a lane even out the lengths of paths, few follow the density.
+  const uint64_t few = baked ? std::min<uint64_t>(film.blocks() / 2, size.blocks) : 1;
+  const auto chunk = static_cast<uint32_t>(std::bit_floor(few));
+  std::vector<glm::uvec2> listed;
+  for (double samples = film.mean_samples(), last = 0; last < most; last = samples) {
+    samples = std::min(next_samples(samples), most);
+    const std::vector<uint32_t> blocks =
+        allocate_blocks(film.sampling_density(), film.width(), static_cast<uint32_t>(film.blocks()),
+                        samples / kBlockSamples, chunk);
+    listed.clear();
+    for (uint32_t tile_pixel = 0; tile_pixel < params.tile_count * kTilePixels; ++tile_pixel) {
+      const std::optional<size_t> index = pixel_index(params, tile_pixel);
+      for (uint64_t b = index ? film.blocks_of(*index) : 0; index && b < blocks[*index]; b += chunk)
+        listed.emplace_back(tile_pixel, first_block + b);
+    }
+
+    WaveParams wave{};
+    wave.block_count = chunk;
+    for (size_t first = 0; first < listed.size(); first += wave.pixel_count) {
+      const size_t rows = size_t{pixels_per_wave} * size.blocks / chunk;
+      wave.pixel_count = static_cast<uint32_t>(std::min(rows, listed.size() - first));
+      const std::span<const glm::uvec2> of_wave = std::span(listed).subspan(first, wave.pixel_count);
+      pixel_list->upload(of_wave.data(), of_wave.size_bytes());
+      if (!render_wave(wave, [&] { return report(film, 0); })) return;
+      sums.add_listed_to(film, wave, of_wave, mapped_film(), mapped_aovs());
+      if (!report(film, 0)) return;
+      if (options.time_limit > 0 && timer.seconds() >= options.time_limit) return;
+    }
+    if (!within_limits(film)) return;
+  }
 }
 
 const RenderStatistics& Renderer::statistics() const { return impl_->statistics; }
@@ -373,7 +481,7 @@ MemoryPlan Renderer::plan_memory(const vulkan::DeviceInfo& device, const PackedS
   const uint32_t capacity = capacity_for(scene.params, options);
   const WaveSize size = wave_size(scene.params, options, capacity, baked.has_value());
   for (const BufferPlan& p : plan_buffers(scene, scene.params, capacity, uint64_t{size.pixels} * size.blocks,
-                                          baked ? &*baked : nullptr)) {
+                                          options.adaptive, baked ? &*baked : nullptr)) {
     uint64_t limit = std::numeric_limits<uint64_t>::max();
     for (const vulkan::Binding& b : p.bindings) limit = std::min(limit, vulkan::largest_buffer(device, b));
     if (p.bytes > 0) plan.buffers.push_back({p.name, p.bytes, limit});

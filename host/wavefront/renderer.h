@@ -21,7 +21,7 @@ enum class SamplerKind { kSobol, kIndependent };
 enum class KernelStructure { kAuto, kStages, kFused };
 
 struct RenderProgress {
-  uint64_t samples = 0, target_samples = 0;  // per pixel
+  uint64_t samples = 0, target_samples = 0;  // per pixel, on average
   double fraction = 0;                       // of all paths, finer than samples
   double seconds = 0, mpaths_per_s = 0;
   double relative_error = 0;                 // FilmBuffer::relative_error(), 0 while unknown
@@ -36,6 +36,8 @@ struct RenderOptions {
   KernelStructure structure = KernelStructure::kAuto;
   double time_limit = 0;        // seconds of rendering; 0: none. At least one block is rendered.
   double error_limit = 0;       // FilmBuffer::relative_error() to reach; 0: none
+  /// More samples where the image is noisier (wavefront/adaptive_sampling.h): `samples` are their mean.
+  bool adaptive = false;
   bool timing = false;          // timestamp queries around each kernel
   /// Called now and then, also within a pass over the image; returning false stops with the passes that are finished.
   std::function<bool(const RenderProgress&)> progress;

@@ -23,7 +23,7 @@ BufferPlan scene_buffer(const char* name, uint32_t binding, VkFormat format, con
 }  // namespace
 
 std::vector<BufferPlan> plan_buffers(const PackedScene& s, const gpu::RenderParams& params, uint32_t capacity,
-                                     uint64_t film_rows, const BakedGeometry* baked) {
+                                     uint64_t film_rows, bool listed, const BakedGeometry* baked) {
   constexpr VkFormat kUint4 = VK_FORMAT_R32G32B32A32_UINT, kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT;
   const bool media = s.features.media != 0, lit = s.features.selection != gpu::kSelectNone;
   // What only the stages need.
@@ -69,6 +69,8 @@ std::vector<BufferPlan> plan_buffers(const PackedScene& s, const gpu::RenderPara
        vulkan::Domain::kHost},
       {"film block", {storage(gpu::kBindFilm)}, nullptr, film_rows * sizeof(glm::vec4),
        vulkan::Domain::kHost},
+      {"pixel list", {texel(gpu::kBindPixelList, VK_FORMAT_R32G32_UINT)}, nullptr,
+       listed ? film_rows * sizeof(glm::uvec2) : 0, vulkan::Domain::kHost},
       {"auxiliary channels", {storage(gpu::kBindAov)}, nullptr,
        film_rows * sizeof(glm::vec4) * static_cast<uint64_t>(std::popcount(s.features.aovs)), vulkan::Domain::kHost},
   };

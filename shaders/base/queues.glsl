@@ -5,6 +5,7 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
+#include "base/features.glsl"
 #include "base/math.glsl"
 #include "shared/bindings.h"
 #include "shared/bvh.h"
@@ -20,6 +21,7 @@ layout(set = 0, binding = kBindQueues) writeonly restrict buffer Queues { uint q
 layout(set = 0, binding = kBindShadowTexels) uniform samplerBuffer shadow_texels;
 layout(set = 0, binding = kBindShadow) writeonly restrict buffer Shadow { vec4 shadow_rows[]; };
 layout(set = 0, binding = kBindCounters) restrict buffer Counters { uint counters[]; };
+layout(set = 0, binding = kBindPixelList) uniform usamplerBuffer pixel_list;
 
 layout(push_constant) uniform Wave { WaveParams wave; };
 
@@ -93,11 +95,15 @@ bool pixel_of(uint tile_pixel, out uvec2 pixel) {
 // Number of a pixel of the image in the full film: what its samples depend on.
 uint film_pixel(uvec2 pixel) { return (pixel.y + params.crop_y) * params.film_width + pixel.x + params.crop_x; }
 
+// Pixel i of the wave: its number in tile order, and its first block.
+uint wave_pixel(uint i) { return has_pixel_list ? texelFetch(pixel_list, int(i)).x : wave.first_pixel + i; }
+uint wave_block(uint i) { return has_pixel_list ? texelFetch(pixel_list, int(i)).y : wave.first_block; }
+
 // Pixel (in tile order) and sample index of a path slot.
-uint slot_tile_pixel(uint slot) { return wave.first_pixel + (slot / kBlockSamples) % wave.pixel_count; }
+uint slot_tile_pixel(uint slot) { return wave_pixel((slot / kBlockSamples) % wave.pixel_count); }
 uint slot_sample(uint slot) {
-  uint block = slot / (kBlockSamples * wave.pixel_count);
-  return (wave.first_block + block) * kBlockSamples + slot % kBlockSamples;
+  uint i = slot / kBlockSamples;
+  return (wave_block(i % wave.pixel_count) + i / wave.pixel_count) * kBlockSamples + slot % kBlockSamples;
 }
 
 #endif

@@ -48,10 +48,10 @@ void main() {
   hoist_light();
   uint i = gl_GlobalInvocationID.x;
   uvec2 pixel = uvec2(0u);
-  bool going = i < wave.pixel_count && pixel_of(wave.first_pixel + i, pixel);
+  bool going = i < wave.pixel_count && pixel_of(wave_pixel(i), pixel);
   uint key = pixel_key(film_pixel(pixel), params.seed);
 
-  uint index = wave.first_block * kBlockSamples;
+  uint first_block = wave_block(i), index = first_block * kBlockSamples;
   uint end = min(index + wave.block_count * kBlockSamples, params.end_sample);
   PathSampler path_sampler = PathSampler(key, index);
   vec4 u_camera = camera_sample(path_sampler);
@@ -116,7 +116,7 @@ void main() {
       index += 1u;
       going = index < end;
       if (index % kBlockSamples == 0u || !going) {
-        uint block = (index - 1u) / kBlockSamples - wave.first_block;
+        uint block = (index - 1u) / kBlockSamples - first_block;
         film[block * wave.pixel_count + i] = vec4(sum, 0.0);
         sum = vec3(0.0);
       }

@@ -41,6 +41,7 @@ TACHYLITE_CONST uint kBindShadow = 26u;        // storage: shadow rays (writes)
 TACHYLITE_CONST uint kBindCounters = 27u;      // storage: queue lengths, dispatch arguments, statistics
 TACHYLITE_CONST uint kBindFilm = 28u;          // storage: sums of a block of samples
 TACHYLITE_CONST uint kBindAov = 29u;           // storage: sums of the AOVs
+TACHYLITE_CONST uint kBindPixelList = 31u;     // texel RG32UI: pixels of a wave, shared/render_params.h
 
 TACHYLITE_SHARED_END
 #endif

@@ -37,6 +37,7 @@ TACHYLITE_CONST uint kFeatureMedia = 20u;         // uint: set of kMedia...; 0: 
 TACHYLITE_CONST uint kFeatureShadowNull = 21u;    // bool: shadow rays pass null surfaces
 TACHYLITE_CONST uint kFeatureAov = 22u;           // uint: set of AOVs
 TACHYLITE_CONST uint kFeatureTriangles = 24u;     // bool
+TACHYLITE_CONST uint kFeaturePixelList = 25u;     // bool: adaptive sampling, a wave's pixels are listed
 TACHYLITE_CONST uint kFeatureCameraMedium = 30u;  // uint: the medium that the camera is in
 
 TACHYLITE_CONST uint kCameraPerspective = 0u;

@@ -2,6 +2,7 @@
 //
 // A wave is a set of paths that are traced together: `block_count` blocks of kBlockSamples samples of `pixel_count`
 // consecutive pixels in tile order. Path slot = (block * pixel_count + pixel) * kBlockSamples + sample.
+// With adaptive sampling the pixels are those of a list instead: pixel in tile order, first block.
 // A pixel in tile order counts through tiles of 8 x 8 pixels, row by row of tiles; those outside the image are idle.
 #ifndef TACHYLITE_SHARED_RENDER_PARAMS_H
 #define TACHYLITE_SHARED_RENDER_PARAMS_H

@@ -141,6 +141,12 @@ TEST_P(CliMerge, WhatDoesNotFitIsRefused) {
   refused("scene.exr", "scene");
   refused("bare.exr", "sample_ranges");
   refused("judge.exr", "device");
+  if (command == "render") {
+    make("other.xml", {"--first-sample", "8", "--spp", "64", "--adaptive", "-o", "adaptive.exr"});
+    EXPECT_NE(image("adaptive.exr").find("samples"), nullptr);
+    refused("adaptive.exr", "sample_ranges");
+    expect_refused({command, "other.xml", "--adaptive", "--resume", "a.exr"}, "--resume");
+  }
   refused("absent.exr", "absent.exr");
   refused("other.xml", "other.xml");
   expect_refused({"merge", "-o", "c.exr"}, "inputs");

@@ -84,6 +84,19 @@ TEST_F(Faults, EveryVulkanCall) {
     }
 }
 
+TEST_F(Faults, AnAdaptiveRenderGoesOn) {
+  const std::vector<std::string> options = {"--spp", "64", "--max-paths", "2048", "--adaptive", "-o", "a.exr"};
+  ASSERT_EQ(render(options).exit_code, 0);
+  const Image whole = read_exr(folder / "a.exr");
+  for (const char* fault : {"vkWaitForFences:3:-4", "vkWaitForFences:7:-4"}) {
+    SCOPED_TRACE(fault);
+    const ProgramResult result = render(options, fault);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("once more"), std::string::npos) << result.err;
+    EXPECT_EQ(read_exr(folder / "a.exr").channels, whole.channels);
+  }
+}
+
 TEST_F(Faults, ALostDeviceIsRetriedOnce) {
   const std::vector<std::string> options = {"--spp", "24", "--max-paths", "1024", "-o", "a.exr"};
   ASSERT_EQ(render(options).exit_code, 0);
