@@ -12,7 +12,8 @@ Aovs::Aovs(const std::vector<std::string>& specifications) : aovs_(parse_aovs(sp
 
 void Aovs::evaluate(const World& world, const Ray& camera_ray, std::vector<double>& values) const {
   if (aovs_.empty()) return;
-  const auto hit = world.geometry.intersect(camera_ray);
+  const auto hit = world.scene.integrator.hide_emitters ? world.geometry.intersect_without_emitters(camera_ray)
+                                                        : world.geometry.intersect(camera_ray);
   if (!hit) {
     values.resize(values.size() + names_.size(), 0);
     return;

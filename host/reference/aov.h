@@ -9,7 +9,8 @@
 namespace tachylite::reference {
 
 /// Mitsuba's arbitrary output variables (types and names: scene/aov.h) of the first surface that a camera ray hits,
-/// null surfaces included. depth is measured along the ray from the near clip plane; sh_normal is without normal and
+/// null surfaces included, lamps only where hide_emitters does not take them out of the image (Mitsuba's show them
+/// anyway, unlike its image). depth is measured along the ray from the near clip plane; sh_normal is without normal and
 /// bump maps, as Mitsuba's; prim_index is the triangle's number in its mesh.
 class Aovs {
  public:
