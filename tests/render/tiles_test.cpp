@@ -129,7 +129,7 @@ struct Tiles : DeviceTest {};
 TEST_F(Tiles, Textures) {
   const Files files = {{"rgb.tga", targa(5, 3, 3, 30, 250)}, {"grey.tga", targa(4, 5, 1, 30, 250)},
                        {"rgba.tga", targa(3, 4, 4, 30, 250)}, {"float.hdr", radiance(6, 4)},
-                       {"windows.bmp", windows_bitmap(5, 4)}};
+                       {"windows.bmp", windows_bitmap(5, 4)}, {"steps.tga", tga_file(2, 2, 1, {20, 90, 160, 250})}};
   std::vector<Tile> tiles;
   const auto add = [&](const std::string& name, const std::string& texture, const char* shape = "rectangle") {
     tiles.push_back({name, shape, diffuse(texture)});
@@ -144,6 +144,10 @@ TEST_F(Tiles, Textures) {
       for (const char* file : {"rgb.tga", "float.hdr"})
         add(fmt::format("{} {} {}", file, wrap, filter),
             bitmap("reflectance", file, word("wrap_mode", wrap) + word("filter_type", filter) + to_uv));
+  // What lies beyond the image are its other half, its nearer half or its edge: the means differ by 10 % and more.
+  const std::string beyond = R"(<transform name="to_uv"><scale x="1.5" y="1.5"/></transform>)";
+  for (const char* wrap : {"repeat", "mirror", "clamp"})
+    add(fmt::format("beyond the image {}", wrap), bitmap("reflectance", "steps.tga", word("wrap_mode", wrap) + beyond));
   for (const char* shape : {"sphere", "disk", "cylinder", "cube"})
     add(shape, bitmap("reflectance", "rgb.tga", to_uv), shape);
   const std::string colors = rgb("color0", "0.9, 0.2, 0.4") + rgb("color1", "0.3, 0.7, 0.6");
