@@ -137,7 +137,8 @@ std::filesystem::path SceneLoader::find_file(const XmlNode& node, const std::str
   std::error_code failed;
   for (const auto& folder : folders)
     if (std::filesystem::is_regular_file(folder / name, failed)) {
-      scene.files.push_back((folder / name).string());
+      const std::string path = (folder / name).string();
+      if (files_named_.insert(path).second) scene.files.push_back(path);
       return folder / name;
     }
   throw InputError(node.where, fmt::format("the file \"{}\" does not exist", name));

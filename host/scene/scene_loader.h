@@ -97,6 +97,7 @@ class SceneLoader {
   std::map<std::string, BsdfIndex> defaults_;
   std::map<BsdfIndex, BsdfIndex> two_sided_;
   std::map<std::string, std::shared_ptr<void>> files_;
+  std::set<std::string> files_named_;
   std::vector<Job> jobs_;
 };
 

@@ -43,7 +43,8 @@ std::vector<Candidate> candidates(const BvhInput& input, const TraceRay& ray, do
 
 std::vector<TraceRay> trace_rays(const std::vector<EdgeRay>& edge_rays) {
   std::vector<TraceRay> rays;
-  for (const EdgeRay& ray : edge_rays) rays.push_back({glm::vec3(ray.origin), kInfinity, glm::vec3(ray.direction)});
+  for (const EdgeRay& ray : edge_rays)
+    rays.push_back({glm::vec3(ray.origin), static_cast<float>(ray.t_max), glm::vec3(ray.direction)});
   return rays;
 }
 

@@ -1,13 +1,15 @@
-// Rooms whose walls all emit 1 and reflect half: every path, whatever it does, sums to 1 + 1/2 + 1/4 + ... exactly, so
-// a single ray that leaks out, is shadowed by its own surface, or gets a wrong weight shows in its pixel. With bsdf
+// Rooms whose walls all emit 1 and reflect all: every path of 24 edges, whatever it does, sums to 24 exactly, so a
+// single ray that leaks out, is shadowed by its own surface, or gets a wrong weight shows in its pixel. With bsdf
 // sampling alone there is no variance: the bound is rounding.
 
 #include <cmath>
+#include <cstdlib>
 
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
 
+#include "reference/reference.h"
 #include "support/render_test.h"
 
 namespace tachylite::test {
@@ -15,9 +17,11 @@ namespace {
 
 constexpr int kSize = 64;
 constexpr int kDepth = 24;
-constexpr uint64_t kSamples = 16;
+constexpr uint32_t kSeed = 2;
+constexpr double kBound = 2e-6;
 
-const std::string kGlow = R"(<bsdf type="diffuse"/><emitter type="area"><float name="radiance" value="1"/></emitter>)";
+const std::string kGlow = R"(<bsdf type="diffuse"><float name="reflectance" value="1"/></bsdf><emitter type="area">
+<float name="radiance" value="1"/></emitter>)";
 
 std::string camera(double scale) {
   return fmt::format(R"(<integrator type="path"><integer name="max_depth" value="{}"/>
@@ -75,25 +79,36 @@ const std::vector<Room>& rooms() {
   return kRooms;
 }
 
-void expect_even_light(const Scene& scene, KernelStructure structure) {
-  RenderOptions options;
-  options.samples = kSamples;
-  options.structure = structure;
-  const DeviceRender render = render_on_device(scene, options);
-  const double expected = 2 - std::ldexp(1.0, 1 - kDepth);
+/// TACHYLITE_ROOM_SAMPLES: so many a pixel, to count what is rarer.
+uint64_t room_samples() {
+  const char* wanted = std::getenv("TACHYLITE_ROOM_SAMPLES");
+  return wanted ? std::strtoull(wanted, nullptr, 10) : 16;
+}
+
+/// `lost`: the share of rays that may be.
+void expect_even_light(const std::string& name, const FilmBuffer& film, double lost) {
   int wrong = 0;
   double worst = 0;
-  for (size_t i = 0; i < kSize * kSize; ++i) {
-    const double error = std::abs(render.film.mean(i).x / expected - 1);
+  for (size_t i = 0; i < film.pixels(); ++i) {
+    const double error = std::abs(film.mean(i).x / kDepth - 1);
     worst = std::max(worst, error);
-    wrong += error > 2e-6;
+    wrong += error > kBound;
   }
-  // The faces of the one kernel overlap by 2e-6 of their size at edges, and about 2 of 1e8 rays meet one of them beyond
-  // the edge, behind the other face. These are 2e7 rays: more than 3 lost ones would be five times that rate.
-  const bool fused = structure == KernelStructure::kFused;
-  EXPECT_LE(wrong, fused ? 3 : 0) << (fused ? "one kernel: " : "stages: ") << "pixels of " << kSize * kSize
-                                  << "; largest relative error " << worst;
+  const double rays = static_cast<double>(film.pixels() * film.samples() * kDepth), mean = lost * rays;
+  fmt::print("stress | {} | bound {:.1e} | {:.1e} | {} of {} pixels beyond, of {:.1e} rays\n", name, kBound, worst,
+             wrong, film.pixels(), rays);
+  EXPECT_LE(wrong, mean + 5 * std::sqrt(mean)) << name << ", worst " << worst;
+}
+
+FilmBuffer on_device(const Scene& scene, KernelStructure structure) {
+  RenderOptions options;
+  options.samples = room_samples();
+  options.seed = kSeed;
+  options.structure = structure;
+  DeviceRender render = render_on_device(scene, options);
   EXPECT_EQ(render.statistics.nonfinite, 0u);
+  EXPECT_EQ(render.statistics.overflow, 0u);
+  return std::move(render.film);
 }
 
 class ClosedRoom : public DeviceTest, public ::testing::WithParamInterface<std::tuple<size_t, double>> {};
@@ -103,8 +118,15 @@ TEST_P(ClosedRoom, EveryPathSumsToTheSame) {
   Scene scene = scene_from_elements(camera(scale) + fmt::format(fmt::runtime(rooms()[index].shapes), scale),
                                     {{"m.obj", sphere_obj(40, 60)}});
   scene.integrator.strategy = Integrator::Strategy::kBsdfOnly;
-  expect_even_light(scene, KernelStructure::kStages);
-  if (index == 0) expect_even_light(scene, KernelStructure::kFused);
+  const std::string name = fmt::format("closed room, {}, {:.0e}", rooms()[index].name, scale);
+  // A direction whose sample is 0 lies in the surface, and its path ends: 2^-23 of all, none of this seed's first 16.
+  // And of what begins within a rounding of an edge, some begins beyond the next face: one of 4e8 rays was seen to.
+  const double lost = 5e-9 + (room_samples() > 16 ? 0x1p-23 : 0);
+  expect_even_light(name + ", stages", on_device(scene, KernelStructure::kStages), lost);
+  if (index == 0) expect_even_light(name + ", one kernel", on_device(scene, KernelStructure::kFused), lost);
+  Film& film = scene.sensors[0].film;
+  film.width = film.height = film.crop_width = film.crop_height = kSize / 4;
+  expect_even_light(name + ", reference", render_reference(scene, {.samples = 4}).film, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scales, ClosedRoom,
@@ -120,17 +142,23 @@ using Placement = DeviceTest;
 
 // Moving a scene far away changes nothing: geometry is recentred in double before it is rounded.
 TEST_F(Placement, FarFromTheOriginIsTheSame) {
-  Scene near = scene_from_elements(cornell_elements(32)), far = near;
+  const Scene near = scene_from_elements(cornell_elements(32));
+  Scene far = near;
   const glm::dvec3 offset(3e5, -2e5, 1e5);
   for (Shape& shape : far.shapes) shape.to_world[3] += glm::dvec4(offset, 0);
   far.sensors[0].to_world[3] += glm::dvec4(offset, 0);
+  const auto expect_same = [&](const char* by, const FilmBuffer& a, const FilmBuffer& b) {
+    int different = 0;
+    for (size_t i = 0; i < a.pixels(); ++i)
+      different += glm::length(a.mean(i) - b.mean(i)) > 1e-3 * glm::length(a.mean(i));
+    EXPECT_LE(different, 32 * 32 / 50) << by;
+    fmt::print("stress | a Cornell box moved by 4e5 | {} | {} of 1024 pixels differ\n", by, different);
+  };
   RenderOptions options;
   options.samples = 8;
   options.structure = KernelStructure::kStages;
-  const FilmBuffer a = render_on_device(near, options).film, b = render_on_device(far, options).film;
-  int different = 0;
-  for (size_t i = 0; i < 32 * 32; ++i) different += glm::length(a.mean(i) - b.mean(i)) > 1e-3 * glm::length(a.mean(i));
-  EXPECT_LE(different, 32 * 32 / 50);
+  expect_same("stages", render_on_device(near, options).film, render_on_device(far, options).film);
+  expect_same("reference", render_reference(near, {.samples = 8}).film, render_reference(far, {.samples = 8}).film);
 }
 
 }  // namespace

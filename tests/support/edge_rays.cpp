@@ -57,6 +57,7 @@ std::vector<EdgeRay> rays_at_edges(const ClosedMesh& mesh, RayPrecision precisio
       ray.direction = target - ray.origin;
       if (i % 2) ray.direction = glm::normalize(ray.direction);
     }
+    if (mesh.in_view) ray.t_max = 1.0001 * glm::distance(ray.origin, target) / glm::length(ray.direction);
   }
   return rays;
 }
@@ -83,7 +84,7 @@ std::vector<ClosedMesh> touching_boxes() {
   std::vector<ClosedMesh> meshes;
   for (const double off : {0.0, 0.2})
     meshes.push_back({fmt::format("boxes off their grid by {}", off), boxes_of_grid(false, off, 24),
-                      boxes_of_grid(true, off, 24), glm::dvec3(0), 0.7, 25});
+                      boxes_of_grid(true, off, 24), glm::dvec3(0), 0.7, 25, off == 0});
   return meshes;
 }
 

@@ -4,6 +4,7 @@
 // reference alike.
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct ClosedMesh {
   glm::dvec3 centre{0};
   double spread = 0;  // rays begin in a cube of this half width around the centre
   uint32_t seed = 0;  // of the rays
+  bool in_view = false;  // nothing is seen at a grazing angle: a ray must hit where it is aimed at, or before
 };
 
 /// Bumpy spheres at three scales, and one far from the origin.
@@ -30,6 +32,7 @@ std::vector<ClosedMesh> touching_boxes();
 
 struct EdgeRay {
   glm::dvec3 origin{0}, direction{0};  // every second one a unit vector
+  double t_max = std::numeric_limits<double>::infinity();  // just behind the aim, where it is in view
 };
 /// How near rays come to edges and corners. Those of kFloat have values that are floats.
 enum class RayPrecision { kFloat, kDouble };

@@ -30,7 +30,7 @@ void expect_no_leaks(const ClosedMesh& mesh) {
     for_rays_at_edges(mesh, precision, 10000, [&](const std::vector<EdgeRay>& rays) {
       for (const EdgeRay& ray : rays) {
         const reference::Ray turned_ray{reference::transform_point(to_world, ray.origin),
-                                        reference::transform_vector(to_world, ray.direction)};
+                                        reference::transform_vector(to_world, ray.direction), ray.t_max};
         missed += !geometry.intersect(turned_ray);
         unseen += !geometry.occluded(turned_ray);
       }
