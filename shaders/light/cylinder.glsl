@@ -47,6 +47,20 @@ float pdf_cylinder_hit(CylinderView v, vec3 to) {
   return visible ? pdf_cylinder(v, to, cs) : 0.0;
 }
 
+// Whether the wall hides the point at the angle (cos, sin) and height z from p, as it does where p looks from outside at
+// the inner side, but not through an end. Shadow rays cannot tell: they ignore the cylinder that they go to.
+bool is_behind_wall(CylinderView v, vec2 cs, float z) {
+  vec3 a = cross(v.e2, v.axis), b = cross(v.axis, v.e1), c = cross(v.e1, v.e2);
+  vec2 q = -vec2(dot(v.base, a) / dot(v.e1, a), dot(v.base, b) / dot(v.e2, b));
+  float height = -dot(v.base, c) / dot(v.axis, c);
+  vec2 d = cs - q;
+  // Where the segment first meets the infinite cylinder; the other root is 1. Points on the wall itself, which rounding
+  // may put outside, see the inner side from within.
+  const float kOnWall = 1e-3;
+  float outside = dot(q, q) - 1.0, t = outside / dot(d, d), crossing = height + t * (z - height);
+  return outside > kOnWall && t < 1.0 && crossing >= 0.0 && crossing <= 1.0;
+}
+
 LightPoint sample_cylinder(CylinderView v, bool inward, vec2 u) {
   float angle = (2.0 * u.x - 1.0) * v.half_angle;
   vec2 turn = vec2(cos(angle), sin(angle));
@@ -56,7 +70,8 @@ LightPoint sample_cylinder(CylinderView v, bool inward, vec2 u) {
   // The normal of a mirrored cylinder still points outwards.
   if (dot(n, cs.x * v.e1 + cs.y * v.e2) < 0.0) n = -n;
   float phi = has_light_textures ? xatan2(cs.y, cs.x) * kInvTwoPi : 0.0;
-  return LightPoint(to, inward ? -n : n, pdf_cylinder(v, to, cs), vec2(phi < 0.0 ? phi + 1.0 : phi, u.y));
+  float pdf = inward && is_behind_wall(v, cs, u.y) ? 0.0 : pdf_cylinder(v, to, cs);
+  return LightPoint(to, inward ? -n : n, pdf, vec2(phi < 0.0 ? phi + 1.0 : phi, u.y));
 }
 
 #endif
