@@ -72,6 +72,10 @@ const std::vector<Feature>& features() {
       {"SphereLight", kCommon + kBall + area_light("sphere", R"(<scale value="0.3"/><translate x="1" y="1.5"/>)")},
       {"DiskLight", kCommon + kBall + area_light("disk", R"(<rotate x="1" angle="70"/><translate y="2"/>)")},
       {"CylinderLight", kCommon + kBall + area_light("cylinder", R"(<scale value="0.7"/><translate x="1" y="1.2"/>)") + kSky},
+      // Its light leaves through the ends alone.
+      {"CylinderShiningInwards", kCommon + R"(<shape type="cylinder"><transform name="to_world"><scale value="0.7"/>
+<rotate y="1" angle="30"/><translate y="0.3"/></transform><boolean name="flip_normals" value="true"/>
+<emitter type="area"><rgb name="radiance" value="8, 7, 6"/></emitter></shape>)"},
       {"CubeLight", kCommon + kBall + area_light("cube", R"(<scale value="0.3"/><translate x="1" y="1.5"/>)")},
       {"MeshLight", kCommon + mesh(R"(<emitter type="area"><rgb name="radiance" value="3, 4, 5"/></emitter>)"),
        {{"m.obj", kPlainObj}}},
