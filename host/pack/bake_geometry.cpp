@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "pack/find_boxes.h"
 #include "shared/baked.h"
 #include "shared/geometry.h"
 #include "shared/light.h"
@@ -21,6 +22,7 @@ using glm::vec3;
 constexpr uint32_t kLongestPath = 512;  // edges; 64 samples of a lane stay below 65535 iterations
 constexpr int kMostRough = 2;           // rough types of bsdf: each is evaluated for every vertex
 constexpr double kOverlap = 1e-6;       // by which faces are widened: rounding must not open their seams
+constexpr int kLeastFaces = 4;          // of a box: it costs as much as three of its faces alone
 
 bool paths_are_short(const FeatureSet& f) { return std::min(f.max_depth, f.roulette_depth) <= kLongestPath; }
 
@@ -92,25 +94,68 @@ class Baker {
     extent_ = glm::max(glm::abs(dvec3(scene.bvh.box_min)), glm::abs(dvec3(scene.bvh.box_max)));
   }
 
+  /// False for what has no place here.
   bool add_leaf(uint32_t leaf) {
     const glm::uvec4& info = scene_.bvh.leaf_info[leaf];
     const uint32_t kind = info.z & gpu::kLeafKindMask;
-    if (kind == gpu::kLeafSphere) return add_sphere(leaf, info);
+    if (kind == gpu::kLeafSphere) {
+      spheres_.push_back(leaf);
+      return true;
+    }
     if (kind != gpu::kLeafTriangles) return false;
     const glm::vec4* r = &scene_.bvh.leaves[size_t{leaf} * gpu::kBvhLeafRows];
     std::array<dvec3, 4> v;
     for (int k = 0; k < 4; ++k) v[static_cast<size_t>(k)] = {r[0][k], r[1][k], r[2][k]};
-    if (info.x == info.y) return add_triangle(v[0], v[1], v[2], 2 * leaf, info.x);
+    const auto add = [&](uint32_t face_kind, const dvec3& v0, const dvec3& v1, const dvec3& v2, uint32_t triangle,
+                         uint32_t primitive) {
+      faces_.push_back({face_kind, {v0, {v1 - v0, v2 - v0}}, 2 * leaf + triangle, primitive});
+    };
     const double size = std::max(glm::length(v[2] - v[0]), glm::length(v[3] - v[1]));
-    const bool parallelogram = glm::length(v[0] + v[2] - v[1] - v[3]) < 1e-6 * size;
+    const bool parallelogram = info.x != info.y && glm::length(v[0] + v[2] - v[1] - v[3]) < 1e-6 * size;
     // A hit on two triangles at once does not tell which: that is enough where both are one light, or none.
-    if (parallelogram && lights_do_not_care(info)) return add_parallelogram(v[0], v[1], v[3], 2 * leaf, info.x);
-    return add_triangle(v[0], v[1], v[2], 2 * leaf, info.x) && add_triangle(v[0], v[2], v[3], 2 * leaf + 1, info.y);
+    if (parallelogram && lights_do_not_care(info)) {
+      add(gpu::kBakedParallelogram, v[0], v[1], v[3], 0, info.x);
+    } else {
+      add(gpu::kBakedTriangle, v[0], v[1], v[2], 0, info.x);
+      if (info.x != info.y) add(gpu::kBakedTriangle, v[0], v[2], v[3], 1, info.y);
+    }
+    return true;
   }
 
-  BakedGeometry take() { return std::move(out_); }
+  /// Empty where there are too many.
+  std::optional<BakedGeometry> bake() {
+    std::vector<size_t> in_boxes;
+    std::vector<Parallelogram> parallelograms;
+    for (size_t i = 0; i < faces_.size(); ++i)
+      if (faces_[i].kind == gpu::kBakedParallelogram && emits(shape(faces_[i].primitive)) == 0) {
+        in_boxes.push_back(i);
+        parallelograms.push_back(faces_[i].points);
+      }
+    const double extent = glm::length(extent_);
+    const std::vector<Box> boxes = find_boxes(parallelograms, kLeastFaces, kOverlap * extent);
+    if (faces_.size() > 6 * gpu::kMaxBaked) return std::nullopt;
+
+    std::vector<bool> done(faces_.size(), false);
+    for (const Box& box : boxes) {
+      std::array<std::optional<size_t>, 6> faces;
+      for (size_t f = 0; f < 6; ++f)
+        if (box.faces[f]) done[*(faces[f] = in_boxes[*box.faces[f]])] = true;
+      put_box(box, faces);
+    }
+    for (size_t i = 0; i < faces_.size(); ++i)
+      if (!done[i]) put_face(faces_[i]);
+    for (const uint32_t leaf : spheres_) put_sphere(leaf);
+    if (out_.count > gpu::kMaxBaked) return std::nullopt;
+    return std::move(out_);
+  }
 
  private:
+  struct Face {
+    uint32_t kind;
+    Parallelogram points;  // of a triangle the half at its corner
+    uint32_t hit, primitive;
+  };
+
   bool lights_do_not_care(const glm::uvec4& info) const {
     const uint32_t light = scene_.shapes[scene_.triangles[info.x].w].y;
     if (light == gpu::kNoIndex) return true;
@@ -121,59 +166,121 @@ class Baker {
     out_.constants[gpu::kBakedFirstConstant + gpu::kBakedConstants * out_.count + index] = word;
   }
   void constant(uint32_t index, double value) { constant(index, std::bit_cast<uint32_t>(static_cast<float>(value))); }
+  void direction(uint32_t index, const dvec3& unit) {
+    for (uint32_t axis = 0; axis < 3; ++axis) constant(index + axis, unit[static_cast<int>(axis)]);
+  }
+  // Ends a primitive, of which `rows` pairs of rows have been put.
+  void finish(uint32_t kind_and_flags, uint32_t rows) {
+    const auto end = static_cast<uint32_t>(out_.rows.size() / gpu::kBakedRows);
+    constant(0, kind_and_flags | (end - rows) << gpu::kBakedRowShift);
+    ++out_.count;
+  }
 
   // The constants of direction `d` (from index on): canonical direction and offset, so that points of the plane
   // through `origin` orthogonal to d give 0. Returns the sign that it was given.
-  double direction(uint32_t index, const dvec3& d, const dvec3& origin) {
+  double plane(uint32_t index, const dvec3& d, const dvec3& origin) {
     double sign;
     const dvec3 unit(units_.canonical(d, sign));
-    for (uint32_t axis = 0; axis < 3; ++axis) constant(index + axis, unit[static_cast<int>(axis)]);
+    direction(index, unit);
     constant(index + 3, -glm::dot(unit, origin));
     return sign;
   }
 
   // p = v0 + a e1 + b e2.
-  bool add_flat(uint32_t kind, const dvec3& v0, const dvec3& e1, const dvec3& e2, uint32_t hit, uint32_t primitive) {
-    if (out_.count >= gpu::kMaxBaked) return false;
+  void put_face(const Face& face) {
+    const auto& [v0, edges] = face.points;
+    const auto& [e1, e2] = edges;
     const dvec3 normal = glm::cross(e1, e2), centre = v0 + 0.5 * (e1 + e2);
     const dvec3 a = glm::cross(e2, normal), b = glm::cross(normal, e1);  // dual to e1 and e2
-    constant(0, kind | emits(shape(primitive)));
-    const double sign_n = direction(1, normal, centre);
-    const double sign_a = direction(5, a, centre), sign_b = direction(9, b, centre);
+    plane(1, normal, centre);
+    const double sign_a = plane(5, a, centre), sign_b = plane(9, b, centre);
     const auto half = [&](const dvec3& dual, const dvec3& edge, double sign) {
       const dvec3 unit = glm::normalize(dual);
       return sign * (0.5 * glm::dot(unit, edge) * (1 + kOverlap) + 4e-7 * glm::dot(extent_, glm::abs(unit)));
     };
     constant(13, half(a, e1, sign_a));
     constant(14, half(b, e2, sign_b));
-    constant(15, hit);
+    constant(15, face.hit);
+    put_face_rows(face);
+    finish(face.kind | emits(shape(face.primitive)) | (on_hull(face) ? gpu::kBakedHull : 0), 1);
+  }
 
-    const bool flip = (shape(primitive).z & gpu::kShapeFlipNormals) != 0;
+  void put_face_rows(const Face& face) {
+    const auto& [v0, edges] = face.points;
+    const dvec3 normal = glm::cross(edges[0], edges[1]), centre = v0 + 0.5 * (edges[0] + edges[1]);
     double sign;
-    const dvec3 n = dvec3(units_.canonical(normal, sign)) * (flip ? -sign_n : sign_n);
-    put_rows(glm::vec4(vec3(n), static_cast<float>(-glm::dot(n, centre))), primitive, shape(primitive), hit);
-    return true;
-  }
-  bool add_triangle(const dvec3& v0, const dvec3& v1, const dvec3& v2, uint32_t hit, uint32_t primitive) {
-    return add_flat(gpu::kBakedTriangle, v0, v1 - v0, v2 - v0, hit, primitive);
-  }
-  bool add_parallelogram(const dvec3& v0, const dvec3& v1, const dvec3& v3, uint32_t hit, uint32_t primitive) {
-    return add_flat(gpu::kBakedParallelogram, v0, v1 - v0, v3 - v0, hit, primitive);
+    const dvec3 unit(units_.canonical(normal, sign));
+    const bool flip = (shape(face.primitive).z & gpu::kShapeFlipNormals) != 0;
+    const dvec3 n = unit * (flip ? -sign : sign);
+    put_rows(glm::vec4(vec3(n), static_cast<float>(-glm::dot(n, centre))), face.primitive, shape(face.primitive), face.hit);
   }
 
-  bool add_sphere(uint32_t leaf, const glm::uvec4& info) {
-    if (out_.count >= gpu::kMaxBaked) return false;
-    const glm::vec4* rows = &scene_.curved[info.x];
-    const vec3 centre(rows[0].w, rows[1].w, rows[2].w);
-    const float radius = rows[3].z;
-    for (uint32_t axis = 0; axis < 3; ++axis) constant(1 + axis, double{centre[static_cast<int>(axis)]});
+  void put_box(const Box& box, const std::array<std::optional<size_t>, 6>& faces) {
+    uint32_t present = 0;
+    bool hull = true;
+    std::array<const Face*, 6> ordered{};
+    for (uint32_t k = 0; k < 3; ++k) {
+      double sign;
+      const dvec3 unit(units_.canonical(box.normals[k], sign));
+      direction(1 + 4 * k, unit);
+      for (uint32_t side = 0; side < 2; ++side) {
+        // Face 2 k has the smaller w.
+        const uint32_t from = 2 * k + (sign < 0 ? 1 - side : side), to = 2 * k + side;
+        constant(side == 0 ? 4 + 4 * k : 13 + k, glm::dot(unit, box.centres[from]));
+        if (!faces[from]) continue;
+        ordered[to] = &faces_[*faces[from]];
+        present |= 1u << to;
+        hull = hull && on_hull(*ordered[to]);
+      }
+    }
+    for (const Face* face : ordered) {
+      if (face)
+        put_face_rows(*face);
+      else
+        out_.rows.resize(out_.rows.size() + gpu::kBakedRows, glm::vec4(0));
+    }
+    finish(gpu::kBakedBox | present << gpu::kBakedFaceShift | (hull ? gpu::kBakedHull : 0), 6);
+  }
+
+  // Whether everything is on one side of the face's plane, lights too: what goes on between surfaces and lights does
+  // not cross it.
+  bool on_hull(const Face& face) const {
+    constexpr uint32_t kAreaLights = 1u << gpu::kLightTriangles | 1u << gpu::kLightRectangle | 1u << gpu::kLightSphere;
+    if ((scene_.features.lights & ~kAreaLights) != 0) return false;
+    const dvec3 n = glm::normalize(glm::cross(face.points.edges[0], face.points.edges[1]));
+    const double tolerance = kOverlap * glm::length(extent_);
+    double low = 0, high = 0;
+    const auto include = [&](const dvec3& p, double radius) {
+      const double distance = glm::dot(n, p - face.points.corner);
+      low = std::min(low, distance - radius);
+      high = std::max(high, distance + radius);
+    };
+    for (const Face& other : faces_) {
+      const auto& [corner, edges] = other.points;
+      for (const dvec3& p : {corner, corner + edges[0], corner + edges[1]}) include(p, 0);
+      if (other.kind == gpu::kBakedParallelogram) include(corner + edges[0] + edges[1], 0);
+    }
+    for (const uint32_t leaf : spheres_) {
+      const auto [centre, radius] = sphere(leaf);
+      include(dvec3(centre), double{radius});
+    }
+    return low > -tolerance || high < tolerance;
+  }
+
+  std::pair<vec3, float> sphere(uint32_t leaf) const {
+    const glm::vec4* rows = &scene_.curved[scene_.bvh.leaf_info[leaf].x];
+    return {vec3(rows[0].w, rows[1].w, rows[2].w), rows[3].z};
+  }
+
+  void put_sphere(uint32_t leaf) {
+    const auto [centre, radius] = sphere(leaf);
+    direction(1, dvec3(centre));
     constant(4, double{radius});
     constant(15, 2 * leaf);
-    const glm::uvec4& s = scene_.shapes[std::bit_cast<uint32_t>(rows[3].x)];
-    constant(0, gpu::kBakedSphere | emits(s));
+    const glm::uvec4& s = scene_.shapes[std::bit_cast<uint32_t>(scene_.curved[scene_.bvh.leaf_info[leaf].x + 3].x)];
     const bool flip = (s.z & gpu::kShapeFlipNormals) != 0;
     put_rows(glm::vec4(centre, flip ? -radius : radius), gpu::kNoIndex, s, 2 * leaf);
-    return true;
+    finish(gpu::kBakedSphere | emits(s), 1);
   }
 
   static uint32_t emits(const glm::uvec4& shape) { return shape.y != gpu::kNoIndex ? gpu::kBakedEmits : 0; }
@@ -186,11 +293,12 @@ class Baker {
     out_.rows.push_back(row);
     out_.rows.push_back(glm::vec4(std::bit_cast<float>(material), std::bit_cast<float>(s.y),
                                   std::bit_cast<float>(primitive), std::bit_cast<float>(hit)));
-    ++out_.count;
   }
 
   const PackedScene& scene_;
   dvec3 extent_{0};
+  std::vector<Face> faces_;
+  std::vector<uint32_t> spheres_;  // leaves
   UnitVectors units_;
   BakedGeometry out_;
 };
@@ -204,10 +312,11 @@ std::optional<BakedGeometry> bake_geometry(const PackedScene& scene) {
   Baker baker(scene);
   for (uint32_t leaf = 0; leaf < scene.bvh.leaf_info.size(); ++leaf)
     if (!baker.add_leaf(leaf)) return std::nullopt;
-  BakedGeometry baked = baker.take();
+  std::optional<BakedGeometry> baked = baker.bake();
+  if (!baked) return std::nullopt;
   for (const uint32_t count : kernel->counts)
-    if (count >= baked.count) {
-      baked.kernel = fmt::format("follow_paths_{}_{}", count, kernel->bsdfs);
+    if (count >= baked->count) {
+      baked->kernel = fmt::format("follow_paths_{}_{}", count, kernel->bsdfs);
       return baked;
     }
   return std::nullopt;

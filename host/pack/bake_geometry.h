@@ -19,6 +19,7 @@ struct BakedGeometry {
   std::string kernel;                      // the variant that holds them: "follow_paths_..." of shaders/CMakeLists.txt
 };
 
+/// Boxes of four to six parallelograms that do not emit are one primitive each (pack/find_boxes.h).
 /// Empty where the scene does not fit: more than kMaxBaked primitives (32 beside rough bsdfs), disks or cylinders, more
 /// than two rough types of bsdf or others than smooth ones, plastics and rough conductors and dielectrics, anything that
 /// needs uv, tangents or vertex normals, media, hidden emitters, or paths so long that they could exceed the iterations

@@ -1,5 +1,5 @@
 // Closest and any hit among primitives that are specialization constants (shared/baked.h): no tree, no loads, no
-// branches. A kernel defines BAKED_COUNT, a multiple of 8 up to 64, before including this file.
+// branches; boxes as three pairs of planes. A kernel defines BAKED_COUNT, a multiple of 8 up to 64, before including this file.
 #ifndef TACHYLITE_GEOMETRY_BAKED_GLSL
 #define TACHYLITE_GEOMETRY_BAKED_GLSL
 #include "shared/baked.h"
@@ -59,6 +59,7 @@ bool same_baked(uint kind, uint id, uint hit) {
 
 // Of a NaN in `b` it gives NaN; max() has another rule, and costs two more instructions for it.
 float larger(float a, float b) { return a > b ? a : b; }
+float smaller(float a, float b) { return a < b ? a : b; }
 
 // Smallest t in (0, tmax) at which the ray meets the primitive; tmax if it does not.
 float hit_baked(BakedRay ray, float tmax, uint id, uint kind_and_flag, vec3 N, float wN, vec3 A, float wA, vec3 B,
@@ -93,18 +94,67 @@ float hit_baked(BakedRay ray, float tmax, uint id, uint kind_and_flag, vec3 N, f
   return outside < 0.0 && !is_target ? t : tmax;
 }
 
+// The ray between two parallel planes of a box: where it enters and leaves, through which faces.
+void cross_slab(BakedRay ray, vec3 N, float w0, float w1, uint first_face, out float enter, out float leave,
+                out uint enter_face, out uint leave_face) {
+  float p = dot(N, ray.o), inverse = 1.0 / dot(N, ray.d);
+  float t0 = (w0 - p) * inverse, t1 = (w1 - p) * inverse;
+  enter = smaller(t0, t1);
+  leave = larger(t0, t1);
+  enter_face = inverse > 0.0 ? first_face : first_face + 1u;
+  leave_face = enter_face ^ 1u;
+}
+
+// Smallest t in (0, tmax) at which the ray meets one of the box's `faces`, and which; tmax if it meets none. Kay and
+// Kajiya 1986, "Ray Tracing Complex Scenes". Faces have no seams here.
+float hit_box(BakedRay ray, float tmax, uint faces, vec3 N0, float w00, float w01, vec3 N1, float w10, float w11,
+              vec3 N2, float w20, float w21, out uint face) {
+  float enter, leave, enter1, leave1, enter2, leave2;
+  uint enter_face, leave_face, enter_face1, leave_face1, enter_face2, leave_face2;
+  cross_slab(ray, N0, w00, w01, 0u, enter, leave, enter_face, leave_face);
+  cross_slab(ray, N1, w10, w11, 2u, enter1, leave1, enter_face1, leave_face1);
+  cross_slab(ray, N2, w20, w21, 4u, enter2, leave2, enter_face2, leave_face2);
+  enter_face = enter1 > enter ? enter_face1 : enter_face;
+  enter = larger(enter1, enter);
+  enter_face = enter2 > enter ? enter_face2 : enter_face;
+  enter = larger(enter2, enter);
+  leave_face = leave1 < leave ? leave_face1 : leave_face;
+  leave = smaller(leave1, leave);
+  leave_face = leave2 < leave ? leave_face2 : leave_face;
+  leave = smaller(leave2, leave);
+  bool enters = enter > 0.0, leaves = true;
+  if (faces != 63u) {
+    enters = enters && (faces >> enter_face & 1u) != 0u;
+    leaves = (faces >> leave_face & 1u) != 0u;
+  }
+  face = enters ? enter_face : leave_face;
+  float t = enters ? enter : leave;
+  // A ray in the plane of a face has NaN there.
+  return enter <= leave && t > 0.0 && t < tmax && (enters || leaves) ? t : tmax;
+}
+
+#define BAKED_BOX(a, b)                                                                                             \
+  (baked_kind_##a##b >> kBakedFaceShift) & 63u, vec3(baked_nx_##a##b, baked_ny_##a##b, baked_nz_##a##b),             \
+      baked_nw_##a##b, baked_h_##a##b, vec3(baked_ax_##a##b, baked_ay_##a##b, baked_az_##a##b), baked_aw_##a##b,     \
+      baked_k_##a##b, vec3(baked_bx_##a##b, baked_by_##a##b, baked_bz_##a##b), baked_bw_##a##b,                      \
+      uintBitsToFloat(baked_hit_##a##b)
 #define BAKED_ARGUMENTS(a, b)                                                                                     \
   baked_hit_##a##b, baked_kind_##a##b, vec3(baked_nx_##a##b, baked_ny_##a##b, baked_nz_##a##b), baked_nw_##a##b,   \
       vec3(baked_ax_##a##b, baked_ay_##a##b, baked_az_##a##b), baked_aw_##a##b,                                   \
       vec3(baked_bx_##a##b, baked_by_##a##b, baked_bz_##a##b), baked_bw_##a##b, baked_h_##a##b, baked_k_##a##b
 
-#define BAKED_CLOSEST(a, b)                                  \
-  if (baked_kind_##a##b != kBakedNone) {                     \
-    float t = hit_baked(ray, closest, BAKED_ARGUMENTS(a, b)); \
-    primitive = t < closest ? uint(8 * a + b) : primitive;   \
-    closest = t;                                             \
+#define BAKED_CLOSEST(a, b)                                                    \
+  if (baked_kind_##a##b != kBakedNone) {                                       \
+    uint face = 0u;                                                            \
+    float t;                                                                   \
+    if ((baked_kind_##a##b & kBakedKindMask) == kBakedBox)                     \
+      t = hit_box(ray, closest, BAKED_BOX(a, b), face);                        \
+    else                                                                       \
+      t = hit_baked(ray, closest, BAKED_ARGUMENTS(a, b));                      \
+    primitive = t < closest ? (baked_kind_##a##b >> kBakedRowShift) + face : primitive; \
+    closest = t;                                                               \
   }
-// The primitive that the ray meets first before `closest`, and where; kNoIndex if none.
+// The rows (pairs of them) of what the ray meets first before `closest`, and where; kNoIndex if nothing.
 uint closest_baked(BakedRay ray, inout float closest) {
   ray.ignored_target = 0xffffffffu;
   uint primitive = 0xffffffffu;
@@ -112,8 +162,14 @@ uint closest_baked(BakedRay ray, inout float closest) {
   return primitive;
 }
 
-#define BAKED_ANY(a, b) \
-  if (baked_kind_##a##b != kBakedNone) blocked = blocked || hit_baked(ray, tmax, BAKED_ARGUMENTS(a, b)) < tmax;
+#define BAKED_ANY(a, b)                                                      \
+  if (baked_kind_##a##b != kBakedNone && (baked_kind_##a##b & kBakedHull) == 0u) { \
+    uint face;                                                               \
+    if ((baked_kind_##a##b & kBakedKindMask) == kBakedBox)                   \
+      blocked = blocked || hit_box(ray, tmax, BAKED_BOX(a, b), face) < tmax; \
+    else                                                                     \
+      blocked = blocked || hit_baked(ray, tmax, BAKED_ARGUMENTS(a, b)) < tmax; \
+  }
 bool any_baked(BakedRay ray, float tmax) {
   bool blocked = false;
   BAKED_ALL(BAKED_ANY)
