@@ -89,6 +89,10 @@ int run_merge(const MergeArguments& arguments) {
     require_same_render(next, identity, merged.film, merged.place);
     if (const std::vector<SampleRange> common = common_ranges(merged.film, next.film); !common.empty())
       throw InputError(fmt::format("{}: samples {} are in files before it, too", next.place, format_ranges(common)));
+    if (merged.film.blocks() + next.film.blocks() > ReproducibleSums::kMaxValues)
+      throw InputError(fmt::format("{}: with it and the files before it a pixel would have {} blocks of samples, but its "
+                                   "sums hold at most {}",
+                                   next.place, merged.film.blocks() + next.film.blocks(), ReproducibleSums::kMaxValues));
     merged.film.merge(next.film);
     const auto found = next.metadata.find("seconds");
     if (found != next.metadata.end()) seconds += std::atof(found->second.c_str());

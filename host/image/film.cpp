@@ -100,6 +100,7 @@ void FilmBuffer::finish_blocks(const SampleRange& range, uint64_t blocks) {
 
 void FilmBuffer::merge(const FilmBuffer& other) {
   CHECK(!is_adaptive() && !other.is_adaptive());
+  CHECK(blocks_ + other.blocks_ <= ReproducibleSums::kMaxValues);
   CHECK_EQ(width_, other.width_);
   CHECK_EQ(height_, other.height_);
   CHECK_EQ(extra_names_.size(), other.extra_names_.size());

@@ -61,7 +61,8 @@ class FilmBuffer {
   /// is disjoint from those before.
   void finish_blocks(const SampleRange& range, uint64_t blocks = 1);
 
-  /// Adds a film of other samples of the same pixels and channels (their order may differ).
+  /// Adds a film of other samples of the same pixels and channels (their order may differ); together they have at most
+  /// ReproducibleSums::kMaxValues blocks.
   void merge(const FilmBuffer& other);
 
   glm::dvec3 mean(size_t index) const;

@@ -307,7 +307,7 @@ void Renderer::Impl::take_counters() {
 Renderer::Renderer(vulkan::Device& device, const PackedScene& scene, const RenderOptions& options) : scene_(scene) {
   if (options.first_sample % kBlockSamples != 0)
     throw InputError(fmt::format("--first-sample must be a multiple of {}", kBlockSamples));
-  if (options.samples == 0 || options.first_sample + options.samples > kMostSamples)
+  if (options.samples == 0 || options.samples > kMostSamples || options.first_sample > kMostSamples - options.samples)
     throw InputError(fmt::format("samples must lie in 1..{} together with the first sample", kMostSamples));
   const MemoryPlan plan = plan_memory(device.info(), scene, options);
   for (const MemoryPlan::Entry& e : plan.buffers)
@@ -380,8 +380,9 @@ bool Renderer::Impl::add_passes(FilmBuffer& film, PassSums& sums) {
   if (!film.sampling_density().empty()) return true;
   const uint32_t all_pixels = params.tile_count * kTilePixels;
   const uint64_t first_block = options.first_sample / kBlockSamples;
-  const uint64_t end_sample =
-      options.first_sample + (options.adaptive ? pilot_samples(options.samples) : options.samples);
+  const uint64_t wanted = options.adaptive ? pilot_samples(options.samples) : options.samples;
+  if (film.samples() >= wanted) return true;
+  const uint64_t end_sample = options.first_sample + wanted;
   const uint64_t end_block = (end_sample + kBlockSamples - 1) / kBlockSamples;
   for (uint64_t block = first_block + film.samples() / kBlockSamples; block < end_block;) {
     // One pass: a few blocks of samples for all pixels.

@@ -92,7 +92,7 @@ TEST_P(CliMerge, ResumeComesToTheWhole) {
 }
 
 TEST_P(CliMerge, InterruptedAndResumed) {
-  const std::string samples = std::string(GetParam()) == "render" ? "2000" : "400";  // a second or so
+  const std::string samples = std::string(GetParam()) == "render" ? "20000" : "400";  // a second or so
   ASSERT_EQ(render(kScene, {"--spp", samples, "-o", "whole.exr"}).exit_code, 0);
   const std::string trigger = std::string(GetParam()) == "render" ? "skipped" : "\n";  // the last line before it renders
   // Interrupted once it renders, again and again, until it is done.
@@ -187,6 +187,12 @@ TEST_P(CliMerge, BrokenFilesAreRefused) {
     refused("blocks", [&](Image& bad) { bad.metadata["blocks"] = blocks; });
   for (const char* key : {"fingerprint", "seed", "sampler", "device", "driver", "version"})
     refused(key, [&](Image& bad) { bad.metadata.erase(key); });
+  // More blocks than sums can hold, in two files that are right by themselves.
+  Image full = good;
+  full.metadata["sample_ranges"] = "8-4194311";
+  full.metadata["blocks"] = "4194304";
+  write_exr(folder / "full.exr", full);
+  expect_refused({"merge", "a.exr", "full.exr", "-o", "c.exr"}, "at most 4194304");
   refused("squares.G.2", [](Image& bad) {
     const auto at = std::find(bad.word_names.begin(), bad.word_names.end(), "squares.G.2") - bad.word_names.begin();
     bad.word_names.erase(bad.word_names.begin() + at);
