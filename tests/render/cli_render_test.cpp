@@ -116,8 +116,9 @@ TEST_P(CliRender, WidthOfVectorsChangesNoBit) {
   EXPECT_FALSE(std::filesystem::exists(folder / "given/vectors-512"));
   EXPECT_FALSE(std::filesystem::exists(folder / "stages/vectors-512"));
   const bool lavapipe = chosen.metadata.at("device").starts_with("llvmpipe");
-  if (lavapipe && __builtin_cpu_supports("avx512f"))
+  if (lavapipe && __builtin_cpu_supports("avx512f")) {
     EXPECT_FALSE(std::filesystem::is_empty(folder / "chosen/vectors-512"));
+  }
 }
 
 TEST_P(CliRender, SeedDecidesTheImage) {

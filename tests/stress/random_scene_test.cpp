@@ -45,7 +45,7 @@ TEST(RandomSceneText, HasWhatIsNested) {
         for (const Element& child : element.children) found += count(child, outer, inner, inside);
         return found;
       };
-  for (uint64_t seed = kFirstNestedSeed; seed < kFirstNestedSeed + 10 * kScenesOfTheme; seed += kScenesOfTheme)
+  for (uint64_t seed = kFirstNestedSeed; seed < kFirstNestedSeed + 10 * kScenesOfTheme; ++seed)
     for (const Element& element : random_scene(seed).elements) {
       maps += count(element, "map", "map", false) - count(element, "map", "bitmap", false);
       sides += count(element, "map", "twosided", false);
