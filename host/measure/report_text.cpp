@@ -12,7 +12,7 @@ namespace {
 std::string describe_levels(const RendererMeasurement& r) {
   std::string text;
   for (const LevelMeasurement& l : r.levels)
-    text += fmt::format("  {:<12}{:>7}{:>34}{:>12.4g}{:>12.4g}{:>32}\n", r.name, l.samples, with_interval(l.rel_mse),
+    text += fmt::format("  {:<12}{:>7}{:>37}{:>12.4g}{:>12.4g}{:>32}\n", r.name, l.samples, with_interval(l.rel_mse),
                         l.seconds.value, l.total_seconds.value, with_interval(l.efficiency));
   return text;
 }
@@ -45,7 +45,7 @@ std::string describe(const Report& report) {
   std::string text;
   for (const SceneMeasurement& s : report.scenes) {
     text += fmt::format("{}: {} x {} pixels, {} seeds, errors from {}\n", s.name, s.width, s.height, s.seeds, s.error_from);
-    text += fmt::format("  {:<12}{:>7}{:>34}{:>12}{:>12}{:>32}\n", "renderer", "spp", "relMSE", "render [s]", "total [s]",
+    text += fmt::format("  {:<12}{:>7}{:>37}{:>12}{:>12}{:>32}\n", "renderer", "spp", "relMSE", "render [s]", "total [s]",
                         "efficiency");
     for (const RendererMeasurement& r : s.renderers) text += describe_levels(r);
     for (const RendererMeasurement& r : s.renderers) text += describe_times(r);
