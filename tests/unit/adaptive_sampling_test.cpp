@@ -129,7 +129,7 @@ std::pair<double, double> mean_after(bool across) {
 }
 
 // Level 6e-5 (four standard errors of about 0.4 %): a bias of 3 % is seen with probability 0.99. Pixels that decide
-// for themselves are off by more than 10 %.
+// for themselves are off by half.
 TEST(AdaptiveSampling, IsUnbiased) {
   const auto [mean, error] = mean_after(true);
   EXPECT_LT(error, 0.006);
