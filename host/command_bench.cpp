@@ -100,13 +100,14 @@ SceneMeasurement bench_scene(const BenchArguments& arguments, const MeasureOptio
   RenderOptions options;
   options.sampler = arguments.sampler;
   options.max_paths = arguments.max_paths;
-  const SceneRenders renders(device, packed, options, {cpu.seconds(), wall.seconds()});
+  const Seconds before{cpu.seconds(), wall.seconds()};
+  const SceneRenders renders(device, packed, options, before);
   const ScratchFolder scratch;
   std::vector<Contestant> contestants = {
       {"tachylite", [&](uint64_t samples, uint32_t seed) { return renders.render(samples, seed); }, 0}};
   RenderOptions adaptive_options = options;
   adaptive_options.adaptive = true;
-  const SceneRenders adaptive_renders(device, packed, adaptive_options, {cpu.seconds(), wall.seconds()});
+  const SceneRenders adaptive_renders(device, packed, adaptive_options, before);
   if (arguments.adaptive)
     contestants.push_back(
         {"adaptive", [&](uint64_t samples, uint32_t seed) { return adaptive_renders.render(samples, seed); }, 0});

@@ -104,7 +104,8 @@ int write_render(const RenderArguments& arguments, const OutputFiles& outputs, F
 
   std::string line =
       fmt::format("{}{}{} samples in {} ({:.3g} Mpaths/s)", render.interrupted ? "interrupted after " : "",
-                  render.film.is_adaptive() ? "on average " : "", statistics.spp, format_duration(statistics.seconds.render), statistics.mpaths_per_s());
+                  render.film.is_adaptive() ? "on average " : "", statistics.spp,
+                  format_duration(statistics.seconds.render), statistics.mpaths_per_s());
   if (const double error = render.film.relative_error(); error > 0)
     line += fmt::format(", relative error {:.2g} %", 100 * error);
   for (const std::filesystem::path& file : outputs) line += fmt::format(", {}", file.string());

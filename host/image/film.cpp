@@ -193,7 +193,8 @@ FilmBuffer FilmBuffer::from_image(const Image& image, const std::string& place) 
   const auto attribute = [&](const char* key) -> std::string_view {
     const auto found = image.metadata.find(key);
     if (found == image.metadata.end())
-      throw InputError(fmt::format("{}: has no attribute {}: it was not written by render or reference, or with --no-sums or --adaptive",
+      throw InputError(fmt::format("{}: has no attribute {}: it was not written by render or reference, or with --no-sums "
+                                   "or --adaptive",
                                    place, key));
     return found->second;
   };

@@ -133,7 +133,6 @@ class Baker {
       }
     const double extent = glm::length(extent_);
     const std::vector<Box> boxes = find_boxes(parallelograms, kLeastFaces, kOverlap * extent);
-    if (faces_.size() > 6 * gpu::kMaxBaked) return std::nullopt;
 
     std::vector<bool> done(faces_.size(), false);
     for (const Box& box : boxes) {
@@ -245,8 +244,8 @@ class Baker {
   // Whether everything is on one side of the face's plane, lights too: what goes on between surfaces and lights does
   // not cross it.
   bool on_hull(const Face& face) const {
-    constexpr uint32_t kAreaLights = 1u << gpu::kLightTriangles | 1u << gpu::kLightRectangle | 1u << gpu::kLightSphere;
-    if ((scene_.features.lights & ~kAreaLights) != 0) return false;
+    for (uint32_t kind = gpu::kLightConstant; kind <= gpu::kLightDirectionalArea; ++kind)
+      if (scene_.features.has_light(kind)) return false;  // may lie beyond
     const dvec3 n = glm::normalize(glm::cross(face.points.edges[0], face.points.edges[1]));
     const double tolerance = kOverlap * glm::length(extent_);
     double low = 0, high = 0;

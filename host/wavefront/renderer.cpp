@@ -349,9 +349,9 @@ uint64_t Renderer::Impl::paths_of(const FilmBuffer& film) {
 }
 
 bool Renderer::Impl::report(const FilmBuffer& film, uint64_t pixel_samples_more) {
-  const double pixels = static_cast<double>(film.pixels());
-  const double samples = film.mean_samples() + static_cast<double>(pixel_samples_more) / pixels;
-  progress.samples = static_cast<uint64_t>(film.mean_samples());
+  const double pixels = static_cast<double>(film.pixels()), finished = film.mean_samples();
+  const double samples = finished + static_cast<double>(pixel_samples_more) / pixels;
+  progress.samples = static_cast<uint64_t>(finished);
   progress.seconds = timer.seconds();
   progress.fraction = samples / static_cast<double>(options.samples);
   progress.mpaths_per_s = (samples * pixels - static_cast<double>(begun_paths)) * 1e-6 / progress.seconds;

@@ -18,7 +18,8 @@ struct BufferPlan {
 };
 
 /// The buffers that a scene needs, each once, before anything is allocated. `capacity`: paths in flight; `film_rows`:
-/// pixels times blocks of a wave, with `listed` those of a list. With `baked` (one kernel for whole paths) there is no tree, no path state, no queue.
+/// pixels times blocks of a wave. `listed`: the wave's pixels stand in a list. With `baked` (one kernel for whole paths)
+/// there is no tree, no path state, no queue.
 std::vector<BufferPlan> plan_buffers(const PackedScene& scene, const gpu::RenderParams& params, uint32_t capacity,
                                      uint64_t film_rows, bool listed, const BakedGeometry* baked);
 
