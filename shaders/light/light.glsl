@@ -126,21 +126,8 @@ vec3 sampled_radiance(vec3 le, uint kind, uint flags, uint texture_row, vec4 row
   return dot(n, wi) < 0.0 ? smooth_scale * le : vec3(0.0);
 }
 
-// Whether the only light is a rectangle sampled by solid angle, and the kernel keeps the key in registers
-// (LIGHT_IN_REGISTERS): the density is the same for every point of the light, and becomes the key, so that a ray that
-// hits it need not find it again. 0 where it is sampled by area.
-bool density_is_key() {
-#ifndef LIGHT_IN_REGISTERS
-  return false;
-#endif
-  uint areas = light_kinds & (1u << kLightTriangles | 1u << kLightRectangle | 1u << kLightSphere | 1u << kLightDisk |
-                              1u << kLightCylinder | 1u << kLightDirectionalArea);
-  return light_selection == kSelectSingle && areas == 1u << kLightRectangle && has_light(kLightsSphericalRectangles);
-}
-
 // n: shading normal at p, on the side that light may come from; zero where it may come from all sides: in media, on
-// surfaces that transmit or whose frame is bumped. selection_key: what a hit of the next ray must know of n,
-// or the density.
+// surfaces that transmit or whose frame is bumped. selection_key: what a hit of the next ray must know of n.
 LightSample sample_light(vec3 p, vec3 n, vec2 u, float u_select, out float selection_key) {
   float probability = 1.0;
   uint light = 0u;
@@ -166,7 +153,6 @@ LightSample sample_light(vec3 p, vec3 n, vec2 u, float u_select, out float selec
       RectangleView view = view_rectangle(v0, row2.xyz, row3.xyz, row4.xyz);
       point = sample_rectangle(view, v0, row2.xyz, row3.xyz, row4.xyz, row4.w, u);
       hit = point.st.x + point.st.y < 1.0 ? hit : floatBitsToUint(row3.w);
-      if (density_is_key()) selection_key = view.by_area ? 0.0 : point.pdf;
     }
     if (is_light(kind, kLightSphere)) {
       point = sample_sphere(v0, row2.x, row2.y != 0.0, u);
@@ -238,12 +224,8 @@ float pdf_light_hit(vec3 p, float selection_key, Interaction it, uint hit_id, ve
   vec3 v0 = row1.xyz - p, to = t * d;
   float pdf = 0.0;
   if (is_light(kind, kLightTriangles)) pdf = pdf_triangle(row4.xyz, row4.w, to);
-  if (is_light(kind, kLightRectangle)) {
-    if (density_is_key())
-      pdf = selection_key > 0.0 ? selection_key : pdf_of_area(row4.w, to, row4.xyz);
-    else
-      pdf = pdf_rectangle(view_rectangle(v0, row2.xyz, row3.xyz, row4.xyz), row4.w, to);
-  }
+  if (is_light(kind, kLightRectangle))
+    pdf = pdf_rectangle(view_rectangle(v0, row2.xyz, row3.xyz, row4.xyz), row4.w, to);
   if (is_light(kind, kLightSphere)) pdf = pdf_sphere(v0, row2.x, row2.y != 0.0);
   if (is_light(kind, kLightDisk)) pdf = pdf_of_area(row4.w, to, row4.xyz);
   if (is_light(kind, kLightCylinder))
