@@ -14,9 +14,9 @@ namespace tachylite {
 namespace {
 
 /// The two renderers as verify() wants them: rounds of independent samples of one scene.
-class Contest {
+class Verifier {
  public:
-  Contest(const VerifyArguments& arguments, const Scene& scene, vulkan::Device& device)
+  Verifier(const VerifyArguments& arguments, const Scene& scene, vulkan::Device& device)
       : arguments_(arguments),
         scene_(scene),
         device_(device),
@@ -88,10 +88,10 @@ int run_verify(const VerifyArguments& arguments) {
   vulkan::Device device(device_options(arguments.device));
   log_info(fmt::format("{}; {} against the CPU reference", summarize(scene, arguments.scene.sensor),
                        describe(device.info())));
-  Contest contest(arguments, scene, device);
+  Verifier verifier(arguments, scene, device);
   const Verification result = verify(
-      [&](uint64_t samples, int round) { return contest.render_device(samples, round); },
-      [&](uint64_t samples, int round) { return contest.render_judge(samples, round); }, {},
+      [&](uint64_t samples, int round) { return verifier.render_device(samples, round); },
+      [&](uint64_t samples, int round) { return verifier.render_judge(samples, round); }, {},
       [](const Verification& now) {
         double mean = 0;
         for (const MeanTest& m : now.comparison.test->means) mean = std::max(mean, m.detectable);
@@ -99,7 +99,7 @@ int run_verify(const VerifyArguments& arguments) {
                              now.samples, now.confirmed ? ", second pair" : "", 100 * mean,
                              100 * now.comparison.test->blocks.detectable));
       });
-  if (contest.interrupted()) return kExitInterrupted;
+  if (verifier.interrupted()) return kExitInterrupted;
   if (result.verdict == Verification::Verdict::kOpen) {
     log_info(fmt::format("no verdict: {} samples do not suffice", result.samples));
     return 1;

@@ -12,11 +12,11 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/pi.h"
 
 namespace tachylite {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 
 const char* const kMaterials[] = {
     R"(<bsdf type="diffuse"><rgb name="reflectance" value="0.7, 0.4, 0.3"/></bsdf>)",
@@ -57,7 +57,7 @@ std::string room(int max_depth, int size, bool light, const std::string& content
 )", max_depth, size, size, walls, contents);
 }
 
-struct Mesh {
+struct FileMesh {
   std::vector<glm::vec3> positions, normals;
   std::vector<glm::ivec3> triangles;
 };
@@ -67,7 +67,7 @@ void append(std::string& bytes, const T& value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-void write_ply(const std::filesystem::path& file, const Mesh& mesh) {
+void write_ply(const std::filesystem::path& file, const FileMesh& mesh) {
   std::string bytes = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", mesh.positions.size());
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) bytes += fmt::format("property float {}\n", name);
   bytes += fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n", mesh.triangles.size());
@@ -82,7 +82,7 @@ void write_ply(const std::filesystem::path& file, const Mesh& mesh) {
   write_file(file, bytes);
 }
 
-void write_obj(const std::filesystem::path& file, const Mesh& mesh) {
+void write_obj(const std::filesystem::path& file, const FileMesh& mesh) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
   for (const glm::vec3& p : mesh.positions) fmt::format_to(out, "v {:.7g} {:.7g} {:.7g}\n", p.x, p.y, p.z);
@@ -93,10 +93,10 @@ void write_obj(const std::filesystem::path& file, const Mesh& mesh) {
 }
 
 /// Latitudes and longitudes of a sphere with bumps, 2 * rings * (2 * rings) triangles.
-Mesh bumpy_ball(uint64_t triangles) {
+FileMesh bumpy_ball(uint64_t triangles) {
   const int rings = std::max(4, static_cast<int>(std::lround(std::sqrt(static_cast<double>(triangles) / 4))));
   const int sides = 2 * rings;
-  Mesh mesh;
+  FileMesh mesh;
   for (int i = 0; i <= rings; ++i)
     for (int j = 0; j <= sides; ++j) {
       const double theta = kPi * (i + 0.001) / (rings + 0.002), phi = 2 * kPi * j / sides;
@@ -122,7 +122,7 @@ std::filesystem::path write_scene(const std::filesystem::path& folder, const std
 }  // namespace
 
 std::filesystem::path write_triangles_scene(const std::filesystem::path& folder, uint64_t triangles, MeshFormat format) {
-  const Mesh mesh = bumpy_ball(triangles);
+  const FileMesh mesh = bumpy_ball(triangles);
   const bool ply = format == MeshFormat::kPly;
   if (ply) write_ply(folder / "ball.ply", mesh);
   else write_obj(folder / "ball.obj", mesh);
@@ -132,7 +132,7 @@ std::filesystem::path write_triangles_scene(const std::filesystem::path& folder,
 }
 
 std::filesystem::path write_lights_scene(const std::filesystem::path& folder, uint64_t lights) {
-  Mesh mesh;
+  FileMesh mesh;
   std::mt19937 random(7);
   std::uniform_real_distribution<float> place(-0.95f, 0.95f), around(-1, 1);
   const float size = 0.12f / std::sqrt(static_cast<float>(lights));

@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "base/check.h"
 #include "base/parallel.h"
+#include "base/pi.h"
 
 namespace tachylite {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 /// Less than this part of the light above the mean: the map is as good as constant, and sampling it is of no use.
 constexpr double kWorthwhile = 1e-3;
 

@@ -5,23 +5,21 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 
 #include "base/check.h"
 #include "base/parallel.h"
+#include "base/pi.h"
+#include "pack/float_bits.h"
 #include "shared/light.h"
 
 namespace tachylite {
 namespace {
 
 using glm::dvec3;
-constexpr double kPi = std::numbers::pi;
 constexpr int kBins = 12;
 constexpr size_t kManyLights = 4096;   // more: split along the longest axis only, and in parallel
 constexpr uint32_t kMaxDepth = 40;     // of the binary tree
-
-uint32_t bits(double x) { return std::bit_cast<uint32_t>(static_cast<float>(x)); }
 
 struct Cone {
   dvec3 axis;

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "base/error.h"
+#include "base/pi.h"
+#include "pack/float_bits.h"
 #include "pack/pack_texture.h"
 #include "shared/bvh.h"
 #include "shared/geometry.h"
@@ -16,9 +16,6 @@
 
 namespace tachylite {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-float as_float(uint32_t bits) { return std::bit_cast<float>(bits); }
 
 /// One corner of a triangle, in device space.
 struct Corner {

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "base/error.h"
+#include "base/pi.h"
 #include "pack/envmap_distribution.h"
+#include "pack/float_bits.h"
 #include "pack/light_tree.h"
 #include "pack/pack_area_light.h"
 #include "shared/bvh.h"
@@ -19,8 +20,6 @@ namespace tachylite {
 namespace {
 
 using glm::dmat3;
-constexpr double kPi = std::numbers::pi;
-float as_float(uint32_t bits) { return std::bit_cast<float>(bits); }
 
 /// For each primitive the hit that names it, kNoHit for those that the BVH left out.
 std::vector<uint32_t> hits_of_primitives(const Geometry& geometry, const Bvh8& bvh) {

@@ -1,7 +1,6 @@
 #include "pack/pack_medium.h"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 #include <map>
 
@@ -9,6 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/error.h"
+#include "pack/float_bits.h"
 #include "pack/majorant_grid.h"
 #include "shared/medium.h"
 
@@ -19,12 +19,11 @@ using glm::dvec3;
 using glm::dvec4;
 using glm::vec4;
 
-float bits(uint32_t word) { return std::bit_cast<float>(word); }
-vec4 row(const dvec3& v, uint32_t word = 0) { return vec4(glm::vec3(v), bits(word)); }
+vec4 row(const dvec3& v, uint32_t word = 0) { return vec4(glm::vec3(v), as_float(word)); }
 
-class Packer {
+class MediumPacker {
  public:
-  explicit Packer(const dvec3& centre) : centre_(centre) {}
+  explicit MediumPacker(const dvec3& centre) : centre_(centre) {}
 
   void add(const Medium& medium) {
     const size_t first = media_.size();
@@ -73,7 +72,7 @@ class Packer {
 
   std::vector<vec4> take_rows() {
     const auto first = static_cast<uint32_t>(media_.size());
-    for (size_t m = 0; m < lobe_rows_.size(); ++m) media_[m * gpu::kMediumRows + 1].w = bits(first + lobe_rows_[m]);
+    for (size_t m = 0; m < lobe_rows_.size(); ++m) media_[m * gpu::kMediumRows + 1].w = as_float(first + lobe_rows_[m]);
     media_.insert(media_.end(), lobes_.begin(), lobes_.end());
     return std::move(media_);
   }
@@ -110,17 +109,17 @@ class Packer {
     const uint32_t wrap = volume.wrap == WrapMode::kRepeat   ? gpu::kVolumeRepeat
                           : volume.wrap == WrapMode::kMirror ? gpu::kVolumeMirror
                                                              : gpu::kVolumeClamp;
-    rows[3] = vec4(bits(static_cast<uint32_t>(grid.nx) | static_cast<uint32_t>(grid.ny) << 16),
-                   bits(static_cast<uint32_t>(grid.nz) | channels << 16 | filtering << 24 | wrap << 28),
-                   bits(first_value(volume, channels)), 0);
+    rows[3] = vec4(as_float(static_cast<uint32_t>(grid.nx) | static_cast<uint32_t>(grid.ny) << 16),
+                   as_float(static_cast<uint32_t>(grid.nz) | channels << 16 | filtering << 24 | wrap << 28),
+                   as_float(first_value(volume, channels)), 0);
   }
 
   void put_majorants(const HeterogeneousMedium& medium, const dvec3& low, const dvec3& high, vec4& row) {
     const MajorantGrid majorants = bound_volume(medium.sigma_t, low + centre_, high + centre_);
     check_grids_size(medium.sigma_t, majorants.values.size());
-    row.x = bits(static_cast<uint32_t>(grids.size()));
+    row.x = as_float(static_cast<uint32_t>(grids.size()));
     const glm::uvec3 n(majorants.cells);
-    row.y = bits(n.x | n.y << 8 | n.z << 16);
+    row.y = as_float(n.x | n.y << 8 | n.z << 16);
     // A little too large, so that no float product of scale and value is above it.
     for (const double value : majorants.values)
       grids.push_back(static_cast<float>(medium.scale * value * (1 + 1e-6)));
@@ -166,10 +165,10 @@ PackedMedia pack_media(const Scene& scene, const Sensor& sensor, const dvec3& ce
     use(shape.exterior);
   }
   PackedMedia out;
-  Packer packer(centre);
+  MediumPacker packer(centre);
   uint32_t count = 0;
   for (size_t m = 0; m < scene.media.size(); ++m) {
-    const bool kept = used[m] && !Packer::is_nothing(scene.media[m]);
+    const bool kept = used[m] && !MediumPacker::is_nothing(scene.media[m]);
     if (kept && count == gpu::kNoMedium)
       throw InputError(scene.media[m].where, fmt::format("more than {} media", gpu::kNoMedium));
     if (kept) packer.add(scene.media[m]);

@@ -1,7 +1,6 @@
 #include "pack/pack_texture.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -9,12 +8,11 @@
 #include <glm/gtc/packing.hpp>
 
 #include "base/error.h"
+#include "pack/float_bits.h"
 #include "shared/texture.h"
 
 namespace tachylite {
 namespace {
-
-uint32_t bits(double x) { return std::bit_cast<uint32_t>(static_cast<float>(x)); }
 
 bool is_bytes(TexelFormat format) {
   return format == TexelFormat::kUnorm8Srgb || format == TexelFormat::kUnorm8Linear;
@@ -26,7 +24,7 @@ size_t channel_index(const Bitmap& bitmap, size_t texel, size_t c) {
   return texel * channels + (channels >= 3 ? c : 0);
 }
 
-struct Packer {
+struct TexturePacker {
   const Scene& scene;
   const Geometry& geometry;
   PackedTextures out;
@@ -239,7 +237,7 @@ dvec3 mean_texture_color(const Scene& scene, const Texture& texture, const dvec2
 }
 
 PackedTextures pack_textures(const Scene& scene, const Geometry& geometry) {
-  Packer packer{scene, geometry, {}, {}, {}};
+  TexturePacker packer{scene, geometry, {}, {}, {}};
   for (const Texture& texture : scene.textures) packer.put(texture);
   return std::move(packer.out);
 }

@@ -2,13 +2,13 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <vector>
+
+#include "base/pi.h"
 
 namespace tachylite {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 
 struct Rule {
   std::vector<double> nodes, weights;  // on [0, 1]

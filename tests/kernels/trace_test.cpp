@@ -120,7 +120,7 @@ class TraceTest : public DeviceTest {
 };
 
 std::vector<TraceRay> random_rays(size_t count, double half, uint32_t seed) {
-  Random random(seed);
+  RandomPlaces random(seed);
   std::vector<TraceRay> rays(count);
   for (TraceRay& ray : rays) {
     ray.origin = glm::vec3(random.in_cube(half));
@@ -232,7 +232,7 @@ TEST_F(TraceTest, AnyNumberOfRays) {
 
 /// Spheres far away, tiny and huge: t to a few units in the last place of the distances involved.
 TEST_F(TraceTest, SpheresOfAllSizes) {
-  Random random(23);
+  RandomPlaces random(23);
   for (const auto& [radius, distance] : {std::pair{1.0, 3.0}, {1e-3, 10.0}, {1e5, 1e5 + 10}, {1.0, 2000.0}}) {
     TestScene scene;
     const glm::dmat4 to_world = glm::scale(glm::dmat4(1), glm::dvec3(radius));

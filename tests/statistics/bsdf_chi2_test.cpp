@@ -3,12 +3,12 @@
 // mean square, relative) at one angle of one material are seen with a power of 0.99.
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "base/pi.h"
 #include "shared/material.h"
 #include "statistics/bsdf_materials.h"
 #include "statistics/bsdf_probe.h"
@@ -21,7 +21,6 @@ namespace {
 
 constexpr int kSamples = 20000;
 constexpr int kPilotSamples = 6000;
-constexpr double kPi = std::numbers::pi;
 constexpr double kLittleLost = 1e-3;
 
 glm::vec3 direction(double degrees, double azimuth = 0.4) {

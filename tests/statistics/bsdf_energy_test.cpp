@@ -2,12 +2,12 @@
 // values of the CPU reference.
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "base/pi.h"
 #include "reference/bsdf/bsdf.h"
 #include "statistics/bsdf_materials.h"
 #include "statistics/bsdf_probe.h"
@@ -17,7 +17,6 @@
 namespace tachylite::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 
 double sqr(double x) { return x * x; }
 

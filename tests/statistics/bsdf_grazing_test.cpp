@@ -5,12 +5,12 @@
 // 0.99.
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "base/pi.h"
 #include "shared/material.h"
 #include "statistics/bsdf_materials.h"
 #include "statistics/bsdf_probe.h"
@@ -22,7 +22,6 @@ namespace tachylite::test {
 namespace {
 
 constexpr int kSamples = 40000;
-constexpr double kPi = std::numbers::pi;
 
 double sqr(double x) { return x * x; }
 

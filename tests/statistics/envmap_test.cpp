@@ -6,10 +6,10 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include "base/pi.h"
 #include "shared/features.h"
 #include "statistics/light_harness.h"
 #include "support/chi2.h"
@@ -19,7 +19,6 @@ namespace {
 
 using glm::dvec2;
 using glm::dvec3;
-constexpr double kPi = std::numbers::pi;
 constexpr size_t kSamples = 100000;
 constexpr int kChi2Tests = 10;
 

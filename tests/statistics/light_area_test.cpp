@@ -8,11 +8,11 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "base/pi.h"
 #include "shared/features.h"
 #include "statistics/light_harness.h"
 #include "support/chi2.h"
@@ -22,7 +22,6 @@ namespace {
 
 using glm::dvec2;
 using glm::dvec3;
-constexpr double kPi = std::numbers::pi;
 constexpr int kBins = 16, kOrder = 5, kChi2Tests = 32;
 constexpr size_t kSamples = 100000;
 

@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include "base/pi.h"
 #include "shared/features.h"
 #include "shared/light.h"
 #include "statistics/light_harness.h"
@@ -19,7 +19,6 @@ namespace {
 
 using glm::dvec2;
 using glm::dvec3;
-constexpr double kPi = std::numbers::pi;
 constexpr size_t kSamples = 100000;
 
 /// Lambert's formula for a polygon with all corners above the horizon, radiance 1.

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
+#include "base/pi.h"
 #include "support/chi2.h"
 
 namespace tachylite::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr size_t kOrder = 6;        // of the quadrature of a cell, per side
 constexpr int kDeepest = 60;        // halvings of a cell
 constexpr size_t kMostPoints = 2'000'000;

@@ -27,9 +27,9 @@ struct TestScene {
   }
 };
 
-class Random {
+class RandomPlaces {
  public:
-  explicit Random(uint32_t seed) : engine_(seed) {}
+  explicit RandomPlaces(uint32_t seed) : engine_(seed) {}
   /// In [lo, hi). Written out, because std::uniform_real_distribution differs between libraries.
   double uniform(double lo = 0, double hi = 1) { return lo + (hi - lo) * (engine_() * 0x1p-32); }
   glm::dvec3 in_cube(double half) {
@@ -50,7 +50,7 @@ class Random {
 /// Unconnected triangles of about `size` in the cube [-1, 1]^3.
 inline TestScene triangle_soup(int count, double size, uint32_t seed) {
   TestScene s;
-  Random random(seed);
+  RandomPlaces random(seed);
   for (int i = 0; i < count; ++i) {
     const glm::dvec3 p = random.in_cube(1);
     s.add(p + random.in_cube(size), p + random.in_cube(size), p + random.in_cube(size));
@@ -61,7 +61,7 @@ inline TestScene triangle_soup(int count, double size, uint32_t seed) {
 /// A bumpy sphere of 2 * (rings - 1) * segments triangles, indexed.
 inline TestScene bumpy_sphere(int rings, int segments, double bump, uint32_t seed) {
   TestScene s;
-  Random random(seed);
+  RandomPlaces random(seed);
   s.vertices.emplace_back(0, 0, 1);
   for (int r = 1; r < rings; ++r)
     for (int k = 0; k < segments; ++k) {
@@ -87,7 +87,7 @@ inline TestScene bumpy_sphere(int rings, int segments, double bump, uint32_t see
 /// Needles: one edge 1e5 times longer than the height.
 inline TestScene slivers(int count, uint32_t seed) {
   TestScene s;
-  Random random(seed);
+  RandomPlaces random(seed);
   for (int i = 0; i < count; ++i) {
     const glm::dvec3 p = random.in_cube(1), d = random.direction();
     s.add(p - d, p + d, p + d * random.uniform(-1, 1) + 1e-5 * random.direction());
@@ -98,7 +98,7 @@ inline TestScene slivers(int count, uint32_t seed) {
 /// Parallel quads of two triangles in few planes, many of them several times over.
 inline TestScene coplanar_duplicates(int quads, uint32_t seed) {
   TestScene s;
-  Random random(seed);
+  RandomPlaces random(seed);
   for (int i = 0; i < quads; ++i) {
     const auto x = static_cast<float>(std::floor(random.uniform(-4, 4)) / 4);
     const auto y = static_cast<float>(std::floor(random.uniform(-4, 4)) / 4);
@@ -113,7 +113,7 @@ inline TestScene coplanar_duplicates(int quads, uint32_t seed) {
 /// Triangles of sizes from 1e-6 to 1e3 around the origin.
 inline TestScene huge_and_tiny(int count, uint32_t seed) {
   TestScene s;
-  Random random(seed);
+  RandomPlaces random(seed);
   for (int i = 0; i < count; ++i) {
     const double size = std::pow(10.0, random.uniform(-6, 3));
     const glm::dvec3 p = random.in_cube(1);
@@ -124,7 +124,7 @@ inline TestScene huge_and_tiny(int count, uint32_t seed) {
 
 /// Spheres, disks and cylinders under general affine maps.
 inline void add_curved(TestScene& s, int count, uint32_t seed) {
-  Random random(seed);
+  RandomPlaces random(seed);
   for (int i = 0; i < count; ++i) {
     glm::dmat4 m = glm::translate(glm::dmat4(1), random.in_cube(1));
     m = glm::rotate(m, random.uniform(0, 6), random.direction());

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include <boost/math/distributions/chi_squared.hpp>
@@ -10,11 +9,11 @@
 #include <boost/math/special_functions/legendre.hpp>
 
 #include "base/check.h"
+#include "base/pi.h"
 
 namespace tachylite::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kFewestCounts = 5;
 constexpr double kPower = 0.99;
 

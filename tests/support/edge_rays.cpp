@@ -12,7 +12,7 @@ namespace {
 TestScene boxes_of_grid(bool middle, double off, uint32_t seed) {
   constexpr int kBoxes = 3, kCorners = kBoxes + 1;
   TestScene scene;
-  Random random(seed);
+  RandomPlaces random(seed);
   std::vector<glm::vec3> corners;
   for (int i = 0; i < kCorners * kCorners * kCorners; ++i) {
     const glm::dvec3 p(i % kCorners, i / kCorners % kCorners, i / kCorners / kCorners);
@@ -39,7 +39,7 @@ TestScene boxes_of_grid(bool middle, double off, uint32_t seed) {
 
 std::vector<EdgeRay> rays_at_edges(const ClosedMesh& mesh, RayPrecision precision, size_t count, uint32_t seed) {
   const TestScene& aim = mesh.aim;
-  Random random(seed);
+  RandomPlaces random(seed);
   std::vector<EdgeRay> rays(count);
   for (size_t i = 0; i < count; ++i) {
     const glm::uvec3& t =

@@ -19,7 +19,7 @@ bool has_area(const TestScene& s, const glm::uvec3& t) {
 }
 
 /// Points of the surface of a curved primitive.
-glm::dvec3 curved_point(const CurvedPrimitive& c, Random& random) {
+glm::dvec3 curved_point(const CurvedPrimitive& c, RandomPlaces& random) {
   glm::dvec3 p = random.direction();
   const double r = std::hypot(p.x, p.y);
   if (c.kind == gpu::kLeafDisk) p.z = 0;
@@ -137,7 +137,7 @@ class Walker {
 
   const TestScene& scene_;
   const Bvh8& bvh_;
-  Random random_{99};
+  RandomPlaces random_{99};
   std::map<uint32_t, int> nodes_, leaves_, primitives_;
   int depth_ = 0;
 };

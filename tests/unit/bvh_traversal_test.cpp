@@ -8,7 +8,7 @@ namespace tachylite::test {
 namespace {
 
 /// A point of a random primitive.
-glm::dvec3 surface_point(const BvhInput& input, Random& random) {
+glm::dvec3 surface_point(const BvhInput& input, RandomPlaces& random) {
   const size_t triangles = input.triangles.size();
   const auto i = static_cast<size_t>(random.uniform(0, static_cast<double>(triangles + input.curved.size())));
   if (i >= triangles) return glm::dvec3(input.curved[i - triangles].object_to_world[3]);
@@ -21,7 +21,7 @@ glm::dvec3 surface_point(const BvhInput& input, Random& random) {
 /// Rays from inside and outside the scene, half of them towards primitives, the others towards points of the
 /// scene's box; some along the axes.
 std::vector<Ray> make_rays(const BvhInput& input, const Bvh8& bvh, int count, uint32_t seed) {
-  Random random(seed);
+  RandomPlaces random(seed);
   const glm::dvec3 centre = 0.5 * (glm::dvec3(bvh.box_min) + glm::dvec3(bvh.box_max));
   const glm::dvec3 half = 0.5 * (glm::dvec3(bvh.box_max) - glm::dvec3(bvh.box_min));
   std::vector<Ray> rays;

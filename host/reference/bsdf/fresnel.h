@@ -31,5 +31,12 @@ inline dvec3 reflect(const dvec3& w, const dvec3& m) {
 inline dvec3 refract(const dvec3& w, const dvec3& m, double cos_t, double eta_ti) {
   return m * (glm::dot(w, m) / eta_ti + cos_t) - w / eta_ti;
 }
+/// The microfacet that takes wo to wi by reflection (same side) or refraction, m.z > 0 (Walter et al. 2007, "Microfacet
+/// Models for Refraction through Rough Surfaces", eqs. 13, 16). eta as of dielectric_boundary.
+inline dvec3 half_vector(double eta, const dvec3& wo, const dvec3& wi) {
+  const bool reflection = wo.z * wi.z > 0;
+  const dvec3 m = glm::normalize(wo + wi * (reflection ? 1 : (wo.z > 0 ? eta : 1 / eta)));
+  return m.z < 0 ? -m : m;
+}
 
 }  // namespace tachylite::reference

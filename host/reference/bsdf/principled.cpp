@@ -47,12 +47,6 @@ dvec3 sample_gtr1(double alpha, const dvec2& u) {
   return {sine * std::cos(phi), sine * std::sin(phi), std::sqrt(std::max(0.0, cos2))};
 }
 
-/// m of a reflection, or of a refraction between the sides, with m.z > 0.
-dvec3 half_vector(double eta, const dvec3& wo, const dvec3& wi) {
-  const dvec3 m = glm::normalize(wo + wi * (wo.z * wi.z > 0 ? 1 : (wo.z > 0 ? eta : 1 / eta)));
-  return m.z < 0 ? -m : m;
-}
-
 /// How the specular lobe splits between reflection and refraction when it is sampled.
 double reflection_probability(const Parameters& p, double fresnel, bool front) {
   // From behind only the fraction bsdf of the surface is there at all, so both parts have it.

@@ -7,12 +7,12 @@ namespace tachylite::reference {
 namespace {
 
 /// The parameters at a point, and the probabilities of sampling each lobe.
-struct Parameters {
+struct ThinParameters {
   dvec3 base_color;
   double roughness, anisotropic, spec_trans, eta, diff_trans;  // diff_trans halved: in [0, 1]
   double p_reflection, p_transmission, p_diffuse, p_diffuse_transmission;
 
-  Parameters(const PrincipledThinBsdf& b, const ShadingPoint& point)
+  ThinParameters(const PrincipledThinBsdf& b, const ShadingPoint& point)
       : base_color(point.color(b.base_color)),
         roughness(point.scalar(b.roughness)),
         anisotropic(point.scalar(b.anisotropic)),
@@ -47,7 +47,7 @@ std::optional<BsdfSample> sample_bsdf(const PrincipledThinBsdf& bsdf, const Shad
                                       const dvec3& wo_given, Random& random) {
   if (wo_given.z == 0) return std::nullopt;
   const dvec3 wo = flip_to(wo_given.z, wo_given);
-  const Parameters p(bsdf, point);
+  const ThinParameters p(bsdf, point);
   const double lobe = random.uniform();
   const dvec2 u = random.uniform2();
   dvec3 wi;
@@ -70,7 +70,7 @@ double pdf_bsdf(const PrincipledThinBsdf& bsdf, const ShadingPoint& point, const
                 const dvec3& wi_given) {
   if (wo_given.z * wi_given.z == 0) return 0;
   const dvec3 wo = flip_to(wo_given.z, wo_given), wi = flip_to(wo_given.z, wi_given);
-  const Parameters p(bsdf, point);
+  const ThinParameters p(bsdf, point);
   const dvec3 m = glm::normalize(wo + dvec3(wi.x, wi.y, std::abs(wi.z)));
   const double jacobian = 1 / (4 * glm::dot(wo, m));
   if (wi.z > 0) {
@@ -85,7 +85,7 @@ dvec3 eval_bsdf(const PrincipledThinBsdf& bsdf, const ShadingPoint& point, const
                 const dvec3& wi_given) {
   if (wo_given.z * wi_given.z == 0) return dvec3(0);
   const dvec3 wo = flip_to(wo_given.z, wo_given), wi = flip_to(wo_given.z, wi_given);
-  const Parameters p(bsdf, point);
+  const ThinParameters p(bsdf, point);
   const dvec3 wi_mirrored(wi.x, wi.y, std::abs(wi.z));
   const dvec3 m = glm::normalize(wo + wi_mirrored);
   const double cos_d = glm::dot(wo, m), f_d = fresnel_dielectric(cos_d, p.eta);

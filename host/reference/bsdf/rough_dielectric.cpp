@@ -4,18 +4,6 @@
 #include "reference/bsdf/microfacet.h"
 
 namespace tachylite::reference {
-namespace {
-
-/// The microfacet that takes wo to wi by reflection (same side) or refraction, m.z > 0 (Walter et al., eqs.
-/// 13, 16).
-dvec3 half_vector(double eta, const dvec3& wo, const dvec3& wi) {
-  const bool reflection = wo.z * wi.z > 0;
-  const dvec3 m = glm::normalize(wo + wi * (reflection ? 1 : (wo.z > 0 ? eta : 1 / eta)));
-  return m.z < 0 ? -m : m;
-}
-
-}  // namespace
-
 std::optional<BsdfSample> sample_bsdf(const RoughDielectricBsdf& bsdf, const ShadingPoint& point,
                                       const dvec3& wo, Random& random) {
   if (wo.z == 0) return std::nullopt;
