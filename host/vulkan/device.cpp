@@ -75,7 +75,8 @@ DeviceInfo select(const std::vector<DeviceInfo>& infos, const std::string& selec
 
 }  // namespace
 
-Device::Device(const DeviceOptions& options) : messages_(std::make_unique<Messages>()) {
+Device::Device(const DeviceOptions& options)
+    : kept_pipelines_(options.kept_pipelines), messages_(std::make_unique<Messages>()) {
   VkDebugUtilsMessengerCreateInfoEXT messenger{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
   messenger.messageSeverity =
       VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
@@ -132,6 +133,7 @@ Device::~Device() {
 void Device::destroy() {
   if (device_) {
     vkDeviceWaitIdle(device_);
+    kept_pipelines_.clear();
     vkDestroyDevice(device_, nullptr);
   }
   if (messenger_) {

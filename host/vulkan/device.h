@@ -7,6 +7,8 @@
 
 #include <volk.h>
 
+#include "vulkan/pipeline.h"
+
 namespace tachylite::vulkan {
 
 /// What `tachylite devices` prints of one Vulkan device, and what a renderer asks before it allocates.
@@ -31,6 +33,7 @@ struct DeviceOptions {
   std::string selector;  // index or a part of the name; empty: discrete GPU, else integrated, else CPU
   bool validation =
       false;  // Khronos validation layer with synchronization checks; its messages are collected
+  size_t kept_pipelines = 0;  // so many are kept for later kernels that are equal: where one process renders much
 };
 
 /// Instance, device and one compute queue. Everything made from it must be destroyed before it, and is used
@@ -55,6 +58,7 @@ class Device {
   /// A memory type that has all of `required` and, if any has them too, `preferred`.
   uint32_t memory_type(uint32_t allowed, VkMemoryPropertyFlags required,
                        VkMemoryPropertyFlags preferred) const;
+  KeptPipelines& kept_pipelines() { return kept_pipelines_; }
   uint64_t allocated_bytes() const { return allocated_bytes_; }  // device memory held now through Buffer
 
  private:
@@ -70,6 +74,7 @@ class Device {
   VkQueue queue_ = VK_NULL_HANDLE;
   uint32_t queue_family_ = 0;
   uint64_t allocated_bytes_ = 0;
+  KeptPipelines kept_pipelines_;
   std::unique_ptr<Messages> messages_;
 };
 

@@ -75,6 +75,7 @@ BindingTable::BindingTable(Device& device, std::span<const Binding> bindings, ui
     for (const Binding& binding : bindings) {
       check_range(device, binding, binding.buffer ? *binding.buffer : zeros_);
       const VkDescriptorType type = descriptor_type(binding.kind);
+      signature_.insert(signature_.end(), {binding.number, static_cast<uint32_t>(type)});
       layout_bindings.push_back({binding.number, type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
       sizes.push_back({type, 1});
     }
@@ -84,6 +85,7 @@ BindingTable::BindingTable(Device& device, std::span<const Binding> bindings, ui
     check(vkCreateDescriptorSetLayout(device.handle(), &set_create, nullptr, &set_layout_),
           "vkCreateDescriptorSetLayout");
 
+    signature_.push_back(push_constant_bytes);
     const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, push_constant_bytes};
     VkPipelineLayoutCreateInfo layout_create{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
     layout_create.setLayoutCount = 1;
@@ -143,42 +145,12 @@ void BindingTable::destroy() {
 
 Kernel::Kernel(Device& device, const BindingTable& table, std::string name, std::span<const uint32_t> spirv,
                const SpecializationConstants& constants)
-    : device_(device), table_(table), name_(std::move(name)) {
-  std::vector<VkSpecializationMapEntry> entries;
-  std::vector<uint32_t> values;
-  for (const auto& [id, value] : constants) {
-    entries.push_back({id, static_cast<uint32_t>(values.size() * sizeof(uint32_t)), sizeof(uint32_t)});
-    values.push_back(value);
-  }
-  VkSpecializationInfo specialization{};
-  specialization.mapEntryCount = static_cast<uint32_t>(entries.size());
-  specialization.pMapEntries = entries.data();
-  specialization.dataSize = values.size() * sizeof(uint32_t);
-  specialization.pData = values.data();
-
-  VkShaderModuleCreateInfo module_create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-  module_create.codeSize = spirv.size_bytes();
-  module_create.pCode = spirv.data();
-  VkShaderModule module = VK_NULL_HANDLE;
-  const std::string of_kernel = fmt::format(" (kernel {})", name_);
-  check(vkCreateShaderModule(device.handle(), &module_create, nullptr, &module),
-        ("vkCreateShaderModule" + of_kernel).c_str());
-
-  VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-  create.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-  create.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-  create.stage.module = module;
-  create.stage.pName = "main";
-  create.stage.pSpecializationInfo = constants.empty() ? nullptr : &specialization;
-  create.layout = table.layout();
-  const VkResult result =
-      vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &pipeline_);
-  vkDestroyShaderModule(device.handle(), module, nullptr);
-  check(result, ("vkCreateComputePipelines" + of_kernel).c_str());
-}
-
-Kernel::~Kernel() {
-  vkDestroyPipeline(device_.handle(), pipeline_, nullptr);
+    : table_(table), name_(std::move(name)) {
+  PipelineKey key{{spirv.begin(), spirv.end()}, constants, table.signature()};
+  pipeline_ = device.kept_pipelines().find(key);
+  if (pipeline_) return;
+  pipeline_ = std::make_shared<Pipeline>(device, table.layout(), name_, spirv, constants);
+  device.kept_pipelines().add(std::move(key), pipeline_);
 }
 
 }  // namespace tachylite::vulkan

@@ -1,11 +1,12 @@
 #pragma once
 
-#include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "vulkan/buffer.h"
+#include "vulkan/pipeline.h"
 
 namespace tachylite::vulkan {
 
@@ -33,12 +34,15 @@ class BindingTable {
   VkPipelineLayout layout() const { return layout_; }
   VkDescriptorSet set() const { return set_; }
   uint32_t push_constant_bytes() const { return push_constant_bytes_; }
+  /// What layouts that are identically defined, and so compatible, have in common.
+  const std::vector<uint32_t>& signature() const { return signature_; }
 
  private:
   void destroy();
 
   Device& device_;
   Buffer zeros_;
+  std::vector<uint32_t> signature_;
   uint32_t push_constant_bytes_ = 0;
   VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
@@ -46,27 +50,23 @@ class BindingTable {
   VkDescriptorSet set_ = VK_NULL_HANDLE;
 };
 
-/// 32-bit specialization constants by constant_id (bool: 0 or 1; float: its bits).
-using SpecializationConstants = std::map<uint32_t, uint32_t>;
-
-/// A compute pipeline with entry point main, linked to a binding table.
+/// A compute pipeline with entry point main, linked to a binding table. A device that keeps pipelines (DeviceOptions)
+/// compiles it once for all equal kernels: of the same words, constants and kinds of bindings.
 class Kernel {
  public:
   Kernel(Device& device, const BindingTable& table, std::string name, std::span<const uint32_t> spirv,
          const SpecializationConstants& constants = {});
-  ~Kernel();
   Kernel(const Kernel&) = delete;
   Kernel& operator=(const Kernel&) = delete;
 
   const std::string& name() const { return name_; }
-  VkPipeline pipeline() const { return pipeline_; }
+  VkPipeline pipeline() const { return pipeline_->handle(); }
   const BindingTable& table() const { return table_; }
 
  private:
-  Device& device_;
   const BindingTable& table_;
   std::string name_;
-  VkPipeline pipeline_ = VK_NULL_HANDLE;
+  std::shared_ptr<const Pipeline> pipeline_;
 };
 
 }  // namespace tachylite::vulkan

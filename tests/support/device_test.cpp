@@ -14,11 +14,13 @@ namespace tachylite::test {
 namespace {
 
 constexpr uint32_t kPushBytes = 128;
+// Most of the time of tests would go to compiling the same kernels again.
+constexpr size_t kKeptPipelines = 48;
 
 }  // namespace
 
 vulkan::Device& device() {
-  static vulkan::Device the_device({.validation = true});
+  static vulkan::Device the_device({.validation = true, .kept_pipelines = kKeptPipelines});
   return the_device;
 }
 
