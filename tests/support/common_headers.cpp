@@ -1,0 +1,1 @@
+// The compiler makes the precompiled header for this file.
