@@ -61,6 +61,35 @@ TEST_F(AddTest, ChainsOfDispatchesSeeEachOther) {
   EXPECT_LT(time.seconds, 60);
 }
 
+// The device of tests keeps pipelines.
+TEST_F(AddTest, EqualKernelsShareAPipeline) {
+  Buffer other_sum(device(), kCount * sizeof(uint32_t));
+  std::vector<Binding> bindings = bindings_;
+  bindings[2].buffer = &other_sum;
+  const BindingTable table(device(), bindings);
+  const auto spirv = test_kernel_spirv("vulkan_add");
+  const Kernel same(device(), table, "same", spirv, {{0, kScale}, {1, 32}});
+  const Kernel next(device(), table, "next", spirv, {{0, kScale + 1}, {1, 32}});
+  EXPECT_EQ(same.pipeline(), add_.pipeline());
+  EXPECT_NE(next.pipeline(), add_.pipeline());
+  bindings.push_back({4, BindingKind::kStorage, nullptr});
+  const BindingTable longer(device(), bindings);
+  EXPECT_NE(Kernel(device(), longer, "longer", spirv, {{0, kScale}, {1, 32}}).pipeline(), add_.pipeline());
+
+  Commands commands(device());
+  commands.fill(sum_, 0);
+  commands.fill(other_sum, 0);
+  const Push push;
+  commands.dispatch(add_, groups_, &push, sizeof(push));
+  for (const Kernel* kernel : {&same, &next}) commands.dispatch(*kernel, groups_, &push, sizeof(push));
+  commands.submit_and_wait();
+  const auto sum = sum_.download_all<uint32_t>(), other = other_sum.download_all<uint32_t>();
+  for (uint32_t i = 0; i < kCount; ++i) {
+    ASSERT_EQ(sum[i], term(i)) << i;
+    ASSERT_EQ(other[i], 2 * term(i) + 1) << i;
+  }
+}
+
 TEST_F(AddTest, IndirectDispatchReadsWhatWasCopied) {
   const uint32_t arguments[] = {0, 0, 0, groups_, 1, 1};
   Buffer source(device(), std::span<const uint32_t>(arguments));
