@@ -99,6 +99,7 @@ SceneMeasurement bench_scene(const BenchArguments& arguments, const MeasureOptio
 
   RenderOptions options;
   options.sampler = arguments.sampler;
+  options.guiding = arguments.guiding;
   options.max_paths = arguments.max_paths;
   const Seconds before{cpu.seconds(), wall.seconds()};
   const SceneRenders renders(device, packed, options, before);

@@ -25,6 +25,7 @@ struct BenchArguments {
   std::string device;
   bool adaptive = false;  // a contestant of its own
   SamplerKind sampler = SamplerKind::kSobol;
+  Guiding guiding = Guiding::kAuto;
   uint32_t max_paths = RenderOptions{}.max_paths;
   bool json = false, quiet = false;
 };

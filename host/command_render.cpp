@@ -23,12 +23,21 @@ RenderOptions render_options(const RenderArguments& arguments, const Sensor& sen
   options.first_sample = arguments.first_sample;
   options.seed = arguments.seed.value_or(sensor.seed);
   options.sampler = arguments.sampler;
+  options.guiding = arguments.guiding;
   options.max_paths = arguments.max_paths;
   options.time_limit = arguments.time;
   options.error_limit = arguments.error;
   options.adaptive = arguments.adaptive;
   options.timing = !arguments.stats.empty();
   return options;
+}
+
+// What the numbers of a sample depend on beside the seed.
+std::string sampling_name(const RenderOptions& options) {
+  std::string name = options.sampler == SamplerKind::kSobol ? "sobol" : "independent";
+  if (options.guiding == Guiding::kOn) name += ", guided";
+  if (options.guiding == Guiding::kOff) name += ", not guided";
+  return name;
 }
 
 RunStatistics statistics_of(const vulkan::DeviceInfo& device, const Renderer& renderer, const Scene& scene,
@@ -172,7 +181,7 @@ int run_render(const RenderArguments& arguments) {
       if (!packed) packed = pack_scene(scene, arguments.scene.sensor);
       const vulkan::DeviceInfo& info = device.info();
       finished.identity = render_identity(scene, arguments.scene.sensor, options.seed,
-                                          options.sampler == SamplerKind::kSobol ? "sobol" : "independent", info.name,
+                                          sampling_name(options), info.name,
                                           fmt::format("{} {}", info.driver, info.driver_version));
       film = Renderer::new_film(*packed);
       if (std::optional<FilmBuffer> begun = begun_film(arguments, outputs, finished.identity, *film, options.samples,

@@ -27,6 +27,7 @@ struct RenderArguments {
   std::string device;
   bool adaptive = false;
   SamplerKind sampler = SamplerKind::kSobol;
+  Guiding guiding = Guiding::kAuto;
   uint32_t max_paths = RenderOptions{}.max_paths;
   std::filesystem::path stats;  // empty: none
   bool quiet = false;

@@ -28,6 +28,7 @@ class Verifier {
     options.samples = samples;
     options.seed = seed_ + static_cast<uint32_t>(round);
     options.sampler = arguments_.sampler;
+    options.guiding = arguments_.guiding;
     options.max_paths = arguments_.max_paths;
     options.progress = [&](const RenderProgress& progress) {
       show(progress.fraction, progress.samples, samples);

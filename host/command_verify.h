@@ -14,6 +14,7 @@ struct VerifyArguments {
   double time = 0;  // seconds; 0: none
   std::string device;
   SamplerKind sampler = SamplerKind::kSobol;
+  Guiding guiding = Guiding::kAuto;
   uint32_t max_paths = RenderOptions{}.max_paths;
   bool quiet = false;
 };

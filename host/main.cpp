@@ -64,6 +64,13 @@ void add_sampler_option(CLI::App& command, SamplerKind& sampler) {
       ->transform(CLI::CheckedTransformer(names).description(""));
 }
 
+void add_guiding_option(CLI::App& command, Guiding& guiding) {
+  static const std::map<std::string, Guiding> names = {{"auto", Guiding::kAuto}, {"on", Guiding::kOn}, {"off", Guiding::kOff}};
+  command.add_option("--guiding", guiding, "paths by photons: auto (default: where they find caustics), on or off")
+      ->type_name("NAME")
+      ->transform(CLI::CheckedTransformer(names).description(""));
+}
+
 void add_seed_option(CLI::App& command, std::optional<uint32_t>& seed) {
   command.add_option("--seed", seed, "of the random numbers")
       ->type_name("N")
@@ -171,6 +178,7 @@ void add_bench_options(CLI::App& command, BenchArguments& arguments, int& thread
       ->check(CLI::IsMember({"auto", "cpu", "wall"}).description(""));
   add_device_option(command, arguments.device);
   add_sampler_option(command, arguments.sampler);
+  add_guiding_option(command, arguments.guiding);
   add_paths_option(command, arguments.max_paths);
   add_threads_option(command, threads);
   command.add_flag("--json", arguments.json, "the report on stdout as JSON");
@@ -195,6 +203,7 @@ int run(int argc, char** argv) {
   render_command
       .add_flag("--adaptive", render.adaptive, "more samples where the image is noisier, without bias; N is their mean")
       ->excludes("--resume");
+  add_guiding_option(render_command, render.guiding);
 
   RenderArguments reference;
   CLI::App& reference_command = *app.add_subcommand("reference", "renders on the CPU reference");
@@ -207,6 +216,7 @@ int run(int argc, char** argv) {
   add_time_option(verify_command, verify.time);
   add_device_option(verify_command, verify.device);
   add_sampler_option(verify_command, verify.sampler);
+  add_guiding_option(verify_command, verify.guiding);
   add_paths_option(verify_command, verify.max_paths);
   add_threads_option(verify_command, threads);
   add_quiet_option(verify_command, verify.quiet);

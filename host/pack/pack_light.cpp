@@ -260,6 +260,13 @@ class LightPacker {
       }
       std::copy(std::begin(r.rows), std::end(r.rows), out_.rows.begin() + static_cast<std::ptrdiff_t>(row_of(i)));
     }
+    double power = 0, sum = 0;
+    for (const LightRecord& r : records_) power += r.kind <= gpu::kLightCylinder ? r.bounds.power : 0;
+    if (power > 0)
+      for (const LightRecord& r : records_) {
+        sum += r.kind <= gpu::kLightCylinder ? r.bounds.power : 0;
+        out_.emission.push_back(static_cast<float>(sum / power));
+      }
     if (environment_) {
       out_.environment_row = row_of(records_.size() - 1);
       out_.table[0].z = out_.environment_row;

@@ -19,6 +19,8 @@ struct PackedLights {
   std::vector<glm::vec4> environment;      // kBindEnvironment
   std::vector<glm::vec4> environment_cdf;  // kBindEnvironmentCdf
   std::vector<uint32_t> light_of_shape;    // first light row of each shape; kNoIndex: it does not emit
+  std::vector<float> emission;             // kBindEmission: for each record of an area light, the share of all their
+                                           // power that it and those before it have; empty: there are none
   uint32_t kinds = 0;                      // set of 1 << kLight... and kLights...
   uint32_t selection = 0;                  // kSelect...
   bool textures = false;                   // some radiance is a texture

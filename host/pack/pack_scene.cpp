@@ -132,7 +132,7 @@ uint64_t PackedScene::host_bytes() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return bytes(bvh.nodes) + bytes(bvh.leaves) + bytes(bvh.leaf_info) + bytes(triangles) + bytes(positions) +
          bytes(normals) + bytes(curved) + bytes(attributes) + bytes(shapes) + bytes(materials) + bytes(textures) +
-         bytes(texels8) + bytes(texels16) + bytes(texels32) + bytes(lights) + bytes(light_table) + bytes(environment) +
+         bytes(texels8) + bytes(texels16) + bytes(texels32) + bytes(lights) + bytes(emission) + bytes(light_table) + bytes(environment) +
          bytes(environment_cdf) + bytes(media) + bytes(grids);
 }
 
@@ -205,6 +205,7 @@ PackedScene pack_scene(const Scene& scene, int sensor_index) {
   out.attributes = std::move(textures.attributes);
   out.lights = std::move(lights.rows);
   out.light_table = std::move(lights.table);
+  out.emission = std::move(lights.emission);
   out.environment = std::move(lights.environment);
   out.environment_cdf = std::move(lights.environment_cdf);
   out.media = std::move(media.rows);

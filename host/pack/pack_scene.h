@@ -30,6 +30,7 @@ struct PackedScene {
   std::vector<glm::vec4> texels32;     // RGBA32F
   std::vector<glm::vec4> lights;       // shared/light.h
   std::vector<glm::uvec4> light_table;
+  std::vector<float> emission;
   std::vector<glm::vec4> environment;
   std::vector<glm::vec4> environment_cdf;
   std::vector<glm::vec4> media;

@@ -21,6 +21,19 @@ struct Kernels {
   std::vector<std::string> run, skipped;  // stages, for people
 };
 
+/// What traces photons, beside stages that it shares with paths.
+struct PhotonKernels {
+  Kernels::Pointer init_from_lights;
+  std::vector<Kernels::Pointer> scatter_photons;  // shade_surface for photons; null for classes that are not guided
+  std::vector<std::string> names;
+};
+/// Of scenes that may_be_guided().
+PhotonKernels build_photon_kernels(vulkan::Device& device, const vulkan::BindingTable& table, const FeatureSet& features,
+                                   const RenderOptions& options, uint64_t end_sample);
+/// Replaces the kernels of classes that can_be_guided() by those that are.
+void guide_kernels(vulkan::Device& device, const vulkan::BindingTable& table, const FeatureSet& features,
+                   const RenderOptions& options, uint64_t end_sample, Kernels& kernels);
+
 /// The stages, or with `baked` the one kernel for whole paths. All samples of a pixel lie below `end_sample`.
 Kernels build_kernels(vulkan::Device& device, const vulkan::BindingTable& table, const FeatureSet& features,
                       const RenderOptions& options, uint64_t end_sample, const BakedGeometry* baked);

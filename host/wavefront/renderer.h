@@ -20,6 +20,10 @@ enum class SamplerKind { kSobol, kIndependent };
 /// paths through geometry that is compiled into it; tiny scenes only. kAuto: kFused where the scene fits.
 enum class KernelStructure { kAuto, kStages, kFused };
 
+/// Whether photons, traced before the render, guide paths on diffuse surfaces to the light that comes by way of glass
+/// and metal (shaders/path/guide.glsl). kAuto: where they find that this pays.
+enum class Guiding { kAuto, kOn, kOff };
+
 struct RenderProgress {
   uint64_t samples = 0, target_samples = 0;  // per pixel, on average
   double fraction = 0;                       // of all paths, finer than samples
@@ -34,6 +38,7 @@ struct RenderOptions {
   SamplerKind sampler = SamplerKind::kSobol;
   uint32_t max_paths = 262144;  // in flight, in stages
   KernelStructure structure = KernelStructure::kAuto;
+  Guiding guiding = Guiding::kAuto;  // kOn is ignored where may_be_guided() is false
   double time_limit = 0;        // seconds of rendering; 0: none. At least one block is rendered.
   double error_limit = 0;       // FilmBuffer::relative_error() to reach; 0: none
   /// More samples where the image is noisier (wavefront/adaptive_sampling.h): `samples` are their mean.

@@ -4,6 +4,7 @@
 
 #include "shared/bindings.h"
 #include "shared/counters.h"
+#include "shared/guide.h"
 #include "shared/path_state.h"
 
 namespace tachylite {
@@ -22,17 +23,21 @@ BufferPlan scene_buffer(const char* name, uint32_t binding, VkFormat format, con
 
 }  // namespace
 
-std::vector<BufferPlan> plan_buffers(const PackedScene& s, const gpu::RenderParams& params, uint32_t capacity,
-                                     uint64_t film_rows, bool listed, const BakedGeometry* baked) {
+std::vector<BufferPlan> plan_buffers(const PackedScene& s, const gpu::RenderParams& params, const WavePlan& plan,
+                                     bool listed) {
   constexpr VkFormat kUint4 = VK_FORMAT_R32G32B32A32_UINT, kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT;
   const bool media = s.features.media != 0, lit = s.features.selection != gpu::kSelectNone;
+  const auto& baked = plan.baked;
+  const uint64_t film_rows = uint64_t{plan.pixels} * plan.blocks;
+  const uint64_t bins = plan.may_guide ? uint64_t{gpu::kGuideCells} * gpu::kGuideCellBins : 0;
   // What only the stages need.
-  const uint64_t slots = baked ? 0 : capacity;
+  const uint64_t slots = baked ? 0 : plan.capacity;
   const uint64_t path_bytes = slots * sizeof(glm::vec4) * (media ? gpu::kPathRowsMedia : gpu::kPathRowsBase);
   const uint64_t queue_bytes = slots * sizeof(uint32_t) * (gpu::kQueueSurface + s.features.classes.size() + (s.media.empty() ? 0 : 1));
   const uint64_t shadow_bytes = lit ? slots * sizeof(glm::vec4) * (media ? gpu::kShadowRowsMedia : gpu::kShadowRows) : 0;
   static const std::vector<glm::uvec4> no_rows_u;
   static const std::vector<glm::vec4> no_rows_f;
+  static const std::vector<float> no_floats;
   const auto staged_u = [&](const std::vector<glm::uvec4>& rows) -> const auto& { return baked ? no_rows_u : rows; };
   const auto staged_f = [&](const std::vector<glm::vec4>& rows) -> const auto& { return baked ? no_rows_f : rows; };
 
@@ -71,6 +76,9 @@ std::vector<BufferPlan> plan_buffers(const PackedScene& s, const gpu::RenderPara
        vulkan::Domain::kHost},
       {"pixel list", {texel(gpu::kBindPixelList, VK_FORMAT_R32G32_UINT)}, nullptr,
        listed ? film_rows * sizeof(glm::uvec2) : 0, vulkan::Domain::kHost},
+      scene_buffer("emission", gpu::kBindEmission, VK_FORMAT_R32_SFLOAT, plan.may_guide ? s.emission : no_floats),
+      {"photons", {storage(gpu::kBindPhotons)}, nullptr, bins * sizeof(uint32_t)},
+      {"guide", {texel(gpu::kBindGuide, VK_FORMAT_R32G32_UINT)}, nullptr, bins * sizeof(glm::uvec2)},
       {"auxiliary channels", {storage(gpu::kBindAov)}, nullptr,
        film_rows * sizeof(glm::vec4) * static_cast<uint64_t>(std::popcount(s.features.aovs)), vulkan::Domain::kHost},
   };

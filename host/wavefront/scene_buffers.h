@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "pack/bake_geometry.h"
 #include "pack/pack_scene.h"
 #include "vulkan/kernel.h"
+#include "wavefront/wave_tracer.h"
 
 namespace tachylite {
 
@@ -17,10 +17,9 @@ struct BufferPlan {
   vulkan::Domain domain = vulkan::Domain::kDevice;
 };
 
-/// The buffers that a scene needs, each once, before anything is allocated. `capacity`: paths in flight; `film_rows`:
-/// pixels times blocks of a wave. `listed`: the wave's pixels stand in a list. With `baked` (one kernel for whole paths)
-/// there is no tree, no path state, no queue.
-std::vector<BufferPlan> plan_buffers(const PackedScene& scene, const gpu::RenderParams& params, uint32_t capacity,
-                                     uint64_t film_rows, bool listed, const BakedGeometry* baked);
+/// The buffers that a scene needs, each once, before anything is allocated. `listed`: the wave's pixels stand in a list.
+/// With plan.baked (one kernel for whole paths) there is no tree, no path state, no queue.
+std::vector<BufferPlan> plan_buffers(const PackedScene& scene, const gpu::RenderParams& params, const WavePlan& plan,
+                                     bool listed);
 
 }  // namespace tachylite

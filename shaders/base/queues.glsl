@@ -93,7 +93,11 @@ bool pixel_of(uint tile_pixel, out uvec2 pixel) {
 }
 
 // Number of a pixel of the image in the full film: what its samples depend on.
-uint film_pixel(uvec2 pixel) { return (pixel.y + params.crop_y) * params.film_width + pixel.x + params.crop_x; }
+// Photons have numbers of their own.
+uint film_pixel(uvec2 pixel) {
+  uint number = (pixel.y + params.crop_y) * params.film_width + pixel.x + params.crop_x;
+  return wave.photons != 0u ? ~(pixel.y << 16u | pixel.x) : number;
+}
 
 // Pixel i of the wave: its number in tile order, and its first block.
 uint wave_pixel(uint i) { return has_pixel_list ? texelFetch(pixel_list, int(i)).x : wave.first_pixel + i; }

@@ -26,6 +26,11 @@ void main() {
   uint edges = path.edges;
   uvec4 shape = is_volumetric() ? load_shape(it.shape) : uvec4(0u);
 
+  // What light samples find anyhow is not learned.
+  IF_GUIDED(if (is_photon_pass)
+    deposit_photon(live && edges > 1u, guide_cell(it.p, bsdf.leaf.n), to_leaf(bsdf.leaf, -d),
+                   (beta.x + beta.y + beta.z) * (1.0 / 3.0), direction.w == 0.0 || direction.w > kFocusedPdf);)
+
   float selection_key = 0.0;
   if (samples_lights(is_volumetric() ? 1u : edges)) {
     vec2 u = light_point_sample(path_sampler, edges - 1u);

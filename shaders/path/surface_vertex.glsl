@@ -10,6 +10,13 @@
 #include "path/path_sampler.glsl"
 #include "path/termination.glsl"
 #include "shared/path_state.h"
+// Only diffuse surfaces are guided.
+#if defined(BSDF_SINGLE_LEAF) && BSDF_TYPES == 2 && !defined(BAKED_COUNT)
+#define IF_GUIDED(code) if (has_guide) { code }
+#include "path/guide.glsl"
+#else
+#define IF_GUIDED(code)
+#endif
 
 // A ray towards a sampled light; `contribution` counts if nothing lies in between.
 struct ShadowRay {
@@ -31,7 +38,7 @@ ShadowRay no_shadow_ray() { return ShadowRay(false, vec3(0.0), vec3(0.0), 0u, ve
 
 // Whether the vertex of a path with `edges` edges samples a light.
 bool samples_lights(uint edges) {
-  return light_selection != kSelectNone && strategy != kStrategyBsdf && has_material(kMaterialSmooth) &&
+  return !is_photon_pass && light_selection != kSelectNone && strategy != kStrategyBsdf && has_material(kMaterialSmooth) &&
          edges < max_depth;
 }
 
@@ -48,6 +55,7 @@ ShadowRay sample_direct_light(Interaction it, vec3 wo, SurfaceBsdf bsdf, vec3 be
                               out float selection_key) {
   LightSample light = sample_light(it.p, light_side_normal(it, wo), u, u_select, selection_key);
   BsdfEval eval = eval_bsdf(bsdf, light.wi);
+  IF_GUIDED(eval.pdf *= guide_density(guide_cell(it.p, bsdf.leaf.n), to_leaf(bsdf.leaf, light.wi));)
   float weight = light.delta || strategy == kStrategyEmitter ? 1.0 : mis_weight(light.pdf, eval.pdf);
   ShadowRay ray;
   ray.contribution = beta * eval.f * light.radiance * (weight / light.pdf);
@@ -65,9 +73,16 @@ bool needs_choices() { return has_roulette() || light_selection > kSelectSingle 
 // The next ray of a path with `edges` edges. u: direction; u_lobe, u_roulette: choices.
 NextRay sample_next_ray(Interaction it, vec3 wo, SurfaceBsdf bsdf, vec4 beta, uint edges, vec2 u, float u_lobe,
                         float u_roulette) {
+  float density = 1.0;  // of guiding, w.r.t. that of the bsdf
+  IF_GUIDED(if (!is_photon_pass) {
+    GuidedNumbers guided = guide_numbers(guide_cell(it.p, bsdf.leaf.n), u);
+    u = guided.u;
+    density = guided.density;
+  })
   BsdfSample s = sample_bsdf(bsdf, u, u_lobe);
   NextRay ray;
-  ray.beta = vec4(beta.xyz * s.weight, beta.w * s.eta * s.eta);
+  // Roulette is played as without the guide: where that sends many paths, they would end too soon.
+  ray.beta = vec4(beta.xyz * s.weight / density, beta.w * s.eta * s.eta * density);
   ray.alive = ray.beta.xyz != vec3(0.0);
   if (has_roulette() && edges >= roulette_depth) {
     float q = survival_probability(ray.beta);
@@ -76,7 +91,7 @@ NextRay sample_next_ray(Interaction it, vec3 wo, SurfaceBsdf bsdf, vec4 beta, ui
   }
   ray.o = offset_origin(it, wo, s.wi);
   ray.d = s.wi;
-  ray.pdf = s.pdf;
+  ray.pdf = s.pdf * density;
   ray.is_null = (s.flags & kLobeNull) != 0u;
   return ray;
 }

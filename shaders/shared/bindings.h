@@ -42,6 +42,10 @@ TACHYLITE_CONST uint kBindCounters = 27u;      // storage: queue lengths, dispat
 TACHYLITE_CONST uint kBindFilm = 28u;          // storage: sums of a block of samples
 TACHYLITE_CONST uint kBindAov = 29u;           // storage: sums of the AOVs
 TACHYLITE_CONST uint kBindPixelList = 31u;     // texel RG32UI: pixels of a wave, shared/render_params.h
+// Guiding
+TACHYLITE_CONST uint kBindEmission = 32u;      // texel R32F: photons of the lights up to each, as a share of all
+TACHYLITE_CONST uint kBindPhotons = 33u;       // storage: flux of photons, shared/guide.h
+TACHYLITE_CONST uint kBindGuide = 34u;         // texel RG32UI, shared/guide.h
 
 TACHYLITE_SHARED_END
 #endif

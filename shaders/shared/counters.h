@@ -24,6 +24,8 @@ TACHYLITE_CONST uint kCounterNonfinite = kMaxQueues + 3u;       // contributions
 TACHYLITE_CONST uint kCounterOverflow = kMaxQueues + 4u;        // stacks or queues that were full
 TACHYLITE_CONST uint kCounterShadowRays = kMaxQueues + 5u;      // shadow rays to trace, of those that were queued
 TACHYLITE_CONST uint kCounterUnfinished = kMaxQueues + 6u;      // lanes whose loops the driver has ended too early
+TACHYLITE_CONST uint kCounterCaustics = kMaxQueues + 7u;        // flux of photons on guided surfaces straight from a
+                                                               // focused lobe, in units of 1 / kCausticUnit (shared/guide.h)
 TACHYLITE_CONST uint kCounterArguments = kMaxQueues + 8u;       // (x, y, z) of each dispatch below, 4 words apart
 
 // Indirect dispatches.

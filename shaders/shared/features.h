@@ -38,6 +38,8 @@ TACHYLITE_CONST uint kFeatureShadowNull = 21u;    // bool: shadow rays pass null
 TACHYLITE_CONST uint kFeatureAov = 22u;           // uint: set of AOVs
 TACHYLITE_CONST uint kFeatureTriangles = 24u;     // bool
 TACHYLITE_CONST uint kFeaturePixelList = 25u;     // bool: adaptive sampling, a wave's pixels are listed
+TACHYLITE_CONST uint kFeatureGuide = 26u;         // bool: directions on this class of diffuse surfaces are guided
+TACHYLITE_CONST uint kFeaturePhotons = 27u;       // bool: the paths are photons that the guide learns from
 TACHYLITE_CONST uint kFeatureCameraMedium = 30u;  // uint: the medium that the camera is in
 
 TACHYLITE_CONST uint kCameraPerspective = 0u;

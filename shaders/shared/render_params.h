@@ -33,7 +33,9 @@ struct RenderParams {
   uint class_count;         // material classes
   float filter_radius, filter_stddev;
   uint aov_stride;          // of the rows of kBindAov: pixels times blocks of a wave
-  uint unused, unused2;     // the size is a multiple of 16 bytes, as that of the kernels' block
+  uint light_count;         // records in kBindLights that photons may leave from
+  float guide_scale;        // edge of a guide's cell by its distance from the camera, at most
+  uint unused, unused2, unused3, unused4;  // the size is a multiple of 16 bytes, as that of the kernels' block
 };
 
 struct WaveParams {
@@ -42,7 +44,7 @@ struct WaveParams {
   uint bounce;                     // 0: camera rays
   uint ray_queue;                  // 0 or 1: which of the two ray queues holds this bounce's rays
   uint mode;                       // of prepare_dispatch
-  uint unused;
+  uint photons;                    // 1: the paths are photons, as of pixels beyond the film (path/guide.glsl)
 };
 
 TACHYLITE_SHARED_END

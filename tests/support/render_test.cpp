@@ -94,15 +94,13 @@ void expect_agreement(const Scene& scene, const VerifyOptions& options) {
 }
 
 void expect_agreement(const Scene& scene, const Scene& judged_by, const VerifyOptions& options,
-                      KernelStructure structure) {
+                      RenderOptions render) {
   const PackedScene packed = pack_scene(scene);
   const auto on_device = [&](uint64_t samples, int round) -> std::optional<Image> {
-    RenderOptions render;
     render.samples = samples;
     // Kernels know the bits of the last index: with the same end in all rounds they are the same kernels.
     render.first_sample = std::max(samples, kEndOfSamples) - samples;
     render.seed = static_cast<uint32_t>(round);
-    render.structure = structure;
     Renderer renderer(device(), packed, render);
     const FilmBuffer film = renderer.render();
     EXPECT_EQ(renderer.statistics().nonfinite, 0u);
@@ -110,10 +108,10 @@ void expect_agreement(const Scene& scene, const Scene& judged_by, const VerifyOp
     return film.to_image();
   };
   const auto on_reference = [&](uint64_t samples, int round) -> std::optional<Image> {
-    ReferenceOptions render;
-    render.samples = samples;
-    render.seed = 1000 + static_cast<uint32_t>(round);
-    const ReferenceImage image = render_reference(judged_by, render);
+    ReferenceOptions reference;
+    reference.samples = samples;
+    reference.seed = 1000 + static_cast<uint32_t>(round);
+    const ReferenceImage image = render_reference(judged_by, reference);
     EXPECT_EQ(image.nonfinite, 0u);
     return to_image(image);
   };

@@ -41,8 +41,9 @@ ImageMean image_mean(const FilmBuffer& film);
 /// Expects that device and CPU reference agree on the scene (image/verify.h): a test of level 1e-4 with the power that
 /// `options` ask for. Nothing may be dropped as not finite or for lack of room.
 void expect_agreement(const Scene& scene, const VerifyOptions& options);
-/// The same of two scenes that must look alike, one for the device (in kernels of that structure) and one for the judge.
+/// The same of two scenes that must look alike, one for the device (samples and seed of `render` are set) and one for
+/// the judge.
 void expect_agreement(const Scene& scene, const Scene& judged_by, const VerifyOptions& options,
-                      KernelStructure structure = KernelStructure::kAuto);
+                      RenderOptions render = {});
 
 }  // namespace tachylite::test

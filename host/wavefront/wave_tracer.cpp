@@ -1,0 +1,304 @@
+#include "wavefront/wave_tracer.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/timer.h"
+#include "shared/bindings.h"
+#include "shared/counters.h"
+#include "shared/path_state.h"
+#include "wavefront/adaptive_sampling.h"
+#include "wavefront/photon_guide.h"
+#include "wavefront/scene_buffers.h"
+
+namespace tachylite {
+namespace {
+
+using gpu::kBlockSamples;
+using gpu::WaveParams;
+using vulkan::Buffer;
+
+constexpr uint32_t kTilePixels = gpu::kTileSize * gpu::kTileSize;
+constexpr uint32_t kFusedPaths = 1u << 24;  // at most, of one dispatch that follows whole paths
+constexpr uint32_t kFirstFusedPaths = 1u << 20;  // of the first: less than a second on one slow core
+constexpr uint32_t kFusedBlocks = 8;
+constexpr uint32_t kBouncesPerSubmit = 16;  // between two looks at the queue's length; fewer where they take longer
+constexpr double kLongestSubmission = 0.3;  // seconds
+
+// Paths in flight: whole tiles of whole blocks, no more than the render has.
+uint32_t capacity_for(const gpu::RenderParams& params, const RenderOptions& options) {
+  const uint64_t blocks = (options.samples + kBlockSamples - 1) / kBlockSamples;
+  const uint64_t all = uint64_t{params.tile_count} * kTilePixels * kBlockSamples * blocks;
+  const uint64_t step = kTilePixels * kBlockSamples;
+  const uint64_t wanted = std::min<uint64_t>(std::max<uint64_t>(options.max_paths, step), all);
+  return static_cast<uint32_t>(wanted / step * step);
+}
+
+// The samples of every pixel lie below this index.
+uint64_t end_of_samples(const RenderOptions& options) {
+  const bool adaptive = options.adaptive && pilot_samples(options.samples) < options.samples;
+  return std::min(options.first_sample + (adaptive ? uint64_t{kLargestShare} : 1) * options.samples, kMostSamples);
+}
+
+std::optional<BakedGeometry> choose_baked(const PackedScene& scene, const RenderOptions& options) {
+  if (options.structure == KernelStructure::kStages) return std::nullopt;
+  std::optional<BakedGeometry> baked = bake_geometry(scene);
+  if (!baked && options.structure == KernelStructure::kFused)
+    throw InputError("the scene does not fit into one kernel: it is too large, or has materials or textures that need stages");
+  return baked;
+}
+
+}  // namespace
+
+std::vector<glm::uvec2> consecutive_pixels(const WaveParams& wave) {
+  std::vector<glm::uvec2> listed(wave.pixel_count);
+  for (uint32_t i = 0; i < wave.pixel_count; ++i) listed[i] = {wave.first_pixel + i, wave.first_block};
+  return listed;
+}
+
+WavePlan::WavePlan(const PackedScene& scene, const RenderOptions& options)
+    : baked(choose_baked(scene, options)), capacity(capacity_for(scene.params, options)) {
+  may_guide = !baked && may_be_guided(scene, options.guiding);
+  const uint32_t all_pixels = scene.params.tile_count * kTilePixels;
+  if (baked) {
+    // A lane renders all blocks of its pixel: many even out the lengths of paths.
+    const uint64_t all_blocks = (options.samples + kBlockSamples - 1) / kBlockSamples;
+    pixels = std::min(all_pixels, kFusedPaths / kBlockSamples);
+    blocks = static_cast<uint32_t>(
+        std::min<uint64_t>({all_blocks, kFusedBlocks, std::max(1u, kFusedPaths / (pixels * kBlockSamples))}));
+    return;
+  }
+  pixels = std::min(all_pixels, capacity / kBlockSamples);
+  blocks = std::max(1u, capacity / (pixels * kBlockSamples));
+}
+
+WaveTracer::WaveTracer(vulkan::Device& device, const PackedScene& scene, const RenderOptions& options)
+    : device_(device), scene_(scene), features_(scene.features), plan_(scene, options), params_(scene.params),
+      bounces_per_submit_(kBouncesPerSubmit), pixels_per_wave_(plan_.pixels), commands_(device) {
+  if (plan_.baked) pixels_per_wave_ = std::min(plan_.pixels, kFirstFusedPaths / (plan_.blocks * kBlockSamples));
+  params_.capacity = plan_.capacity;
+  params_.seed = options.seed;
+  params_.end_sample = static_cast<uint32_t>(end_of_samples(options));
+  params_.aov_stride = plan_.pixels * plan_.blocks;
+  params_.light_count = static_cast<uint32_t>(scene.emission.size());
+  params_.guide_scale = guide_scale(params_);
+  const Timer upload_timer;
+  upload(options);
+  upload_seconds_ = upload_timer.seconds();
+
+  const Timer compile_timer;
+  kernels_ = build_kernels(device_, *table_, features_, options, params_.end_sample, plan_.baked ? &*plan_.baked : nullptr);
+  if (plan_.may_guide) {
+    const std::vector<glm::uvec2> guide = learn_guide(options);
+    if (!guide.empty()) {
+      guide_->upload(guide.data(), guide.size() * sizeof(guide[0]));
+      guide_kernels(device_, *table_, features_, options, params_.end_sample, kernels_);
+    } else {
+      kernels_.skipped.push_back("guide");
+    }
+  }
+  warm_up();
+  commands_.set_timing(options.timing);
+  compile_seconds_ = compile_timer.seconds() - guide_seconds_;
+}
+
+void WaveTracer::upload(const RenderOptions& options) {
+  std::vector<BufferPlan> plan = plan_buffers(scene_, params_, plan_, options.adaptive);
+  std::vector<vulkan::Binding> bindings;
+  buffers_.reserve(plan.size());
+  for (BufferPlan& p : plan) {
+    const Buffer* made = nullptr;
+    if (p.bytes > 0) {
+      Buffer& buffer = buffers_.emplace_back(device_, p.bytes, p.domain);
+      if (p.data) buffer.upload(p.data, p.bytes);
+      made = &buffer;
+      if (p.bindings[0].number == gpu::kBindCounters) counters_ = &buffer;
+      if (p.bindings[0].number == gpu::kBindFilm) film_block_ = &buffer;
+      if (p.bindings[0].number == gpu::kBindAov) aov_block_ = &buffer;
+      if (p.bindings[0].number == gpu::kBindPixelList) pixel_list_ = &buffer;
+      if (p.bindings[0].number == gpu::kBindPhotons) photons_ = &buffer;
+      if (p.bindings[0].number == gpu::kBindGuide) guide_ = &buffer;
+    }
+    for (vulkan::Binding binding : p.bindings) {
+      binding.buffer = made;
+      bindings.push_back(binding);
+    }
+  }
+  const std::vector<uint32_t> zeros(gpu::kCounterWords, 0);
+  counters_->upload(zeros.data(), zeros.size() * sizeof(uint32_t));
+  table_ = std::make_unique<vulkan::BindingTable>(device_, bindings, sizeof(WaveParams));
+}
+
+// Drivers compile a kernel when it is first dispatched: do that now, with nothing to do.
+void WaveTracer::touch(const Kernels::Pointer& kernel, uint32_t mode) {
+  WaveParams wave{};
+  wave.mode = mode;
+  if (kernel) commands_.dispatch(*kernel, 1, &wave, sizeof(wave));
+}
+
+void WaveTracer::warm_up() {
+  const Kernels& k = kernels_;
+  touch(k.prepare_dispatch, gpu::kPrepareTrace);
+  for (const Kernels::Pointer* kernel :
+       {&k.init_from_camera, &k.intersect_primary, &k.intersect_closest, &k.intersect_shadow, &k.sample_medium,
+        &k.shade_segment, &k.shade_medium, &k.shade_emitter, &k.shade_escaped, &k.write_film, &k.write_aov,
+        &k.write_moment, &k.follow_paths})
+    touch(*kernel);
+  for (const Kernels::Pointer& kernel : k.shade_surface) touch(kernel);
+  commands_.submit_and_wait();
+}
+
+// Number of bounces (rays of a path) that can still contribute.
+uint64_t WaveTracer::last_bounce() const {
+  // Null surfaces do not count: the queues tell when all paths have ended.
+  if (features_.shadow_null) return std::numeric_limits<uint32_t>::max();
+  const bool lights_can_be_hit = features_.area_lights() || features_.environment();
+  if (features_.max_depth == std::numeric_limits<uint32_t>::max()) return features_.max_depth;
+  return lights_can_be_hit ? features_.max_depth : std::max(features_.max_depth, 1u) - 1;
+}
+
+// One lane an entry of a queue.
+void WaveTracer::dispatch_queue(const Kernels::Pointer& kernel, uint32_t dispatch, const WaveParams& wave) {
+  if (kernel)
+    commands_.dispatch_indirect(*kernel, *counters_, sizeof(uint32_t) * (gpu::kCounterArguments + 4 * dispatch), &wave,
+                                sizeof(wave));
+}
+
+void WaveTracer::dispatch_lanes(const Kernels::Pointer& kernel, uint32_t lanes, const WaveParams& wave) {
+  if (kernel)
+    commands_.dispatch(*kernel, (lanes + gpu::kWorkgroupSize - 1) / gpu::kWorkgroupSize, &wave, sizeof(wave));
+}
+
+void WaveTracer::prepare(uint32_t mode, WaveParams& wave) {
+  wave.mode = mode;
+  commands_.dispatch(*kernels_.prepare_dispatch, 1, &wave, sizeof(wave));
+}
+
+void WaveTracer::begin_paths(const Kernels::Pointer& init, WaveParams& wave) {
+  commands_.fill(*counters_, 0, 0, sizeof(uint32_t) * gpu::kCounterClosestTotal);
+  dispatch_lanes(init, wave.pixel_count * wave.block_count * kBlockSamples, wave);
+  wave.bounce = wave.ray_queue = 0;
+  prepare(gpu::kPrepareTrace, wave);
+}
+
+void WaveTracer::record_bounce(WaveParams& wave) {
+  const Kernels& k = kernels_;
+  dispatch_queue(wave.bounce == 0 ? k.intersect_primary : k.intersect_closest, gpu::kDispatchClosest, wave);
+  if (wave.bounce == 0) dispatch_lanes(k.write_aov, wave.pixel_count * wave.block_count, wave);
+  if (k.shade_segment) {
+    dispatch_queue(k.shade_segment, gpu::kDispatchQueue + wave.ray_queue, wave);
+    prepare(gpu::kPrepareShadow, wave);
+    dispatch_queue(k.intersect_shadow, gpu::kDispatchShadow, wave);
+  }
+  dispatch_queue(k.sample_medium, gpu::kDispatchQueue + wave.ray_queue, wave);
+  prepare(gpu::kPrepareShade, wave);
+  dispatch_queue(k.shade_escaped, gpu::kDispatchQueue + gpu::kQueueEscaped, wave);
+  dispatch_queue(k.shade_emitter, gpu::kDispatchQueue + gpu::kQueueEmitter, wave);
+  for (uint32_t c = 0; c < k.shade_surface.size(); ++c)
+    dispatch_queue(k.shade_surface[c], gpu::kDispatchQueue + gpu::kQueueSurface + c, wave);
+  dispatch_queue(k.shade_medium, gpu::kDispatchQueue + gpu::kQueueSurface + params_.class_count, wave);
+  ++wave.bounce;
+  wave.ray_queue = 1 - wave.ray_queue;
+  prepare(gpu::kPrepareTrace, wave);
+  dispatch_queue(k.intersect_shadow, gpu::kDispatchShadow, wave);
+}
+
+std::vector<glm::uvec2> WaveTracer::learn_guide(const RenderOptions& options) {
+  const PhotonKernels photon_kernels = build_photon_kernels(device_, *table_, features_, options, params_.end_sample);
+  kernels_.run.insert(kernels_.run.end(), photon_kernels.names.begin(), photon_kernels.names.end());
+  // On surfaces that are not guided photons scatter as paths do; their shadow rays are not traced.
+  const auto scatter = [&](size_t c) -> const Kernels::Pointer& {
+    return photon_kernels.scatter_photons[c] ? photon_kernels.scatter_photons[c] : kernels_.shade_surface[c];
+  };
+  const size_t classes = kernels_.shade_surface.size();
+  touch(kernels_.prepare_dispatch, gpu::kPrepareTrace);
+  touch(photon_kernels.init_from_lights);
+  touch(kernels_.intersect_closest);
+  for (size_t c = 0; c < classes; ++c) touch(scatter(c));
+  commands_.submit_and_wait();
+
+  const Timer timer;
+  commands_.set_timing(options.timing);
+  commands_.fill(*photons_, 0);
+  WaveParams wave{};
+  wave.photons = 1;
+  wave.block_count = 1;
+  const uint32_t all = photon_count(params_) / kBlockSamples;  // as samples of so many pixels
+  for (; wave.first_pixel < all; wave.first_pixel += wave.pixel_count) {
+    wave.pixel_count = std::min(plan_.capacity / kBlockSamples, all - wave.first_pixel);
+    if (pixel_list_) list_pixels(consecutive_pixels(wave));
+    begin_paths(photon_kernels.init_from_lights, wave);
+    for (const uint64_t end = std::min<uint64_t>(last_bounce(), kPhotonBounces); wave.bounce < end;) {
+      dispatch_queue(kernels_.intersect_closest, gpu::kDispatchClosest, wave);
+      prepare(gpu::kPrepareShade, wave);
+      for (size_t c = 0; c < classes; ++c)
+        dispatch_queue(scatter(c), gpu::kDispatchQueue + gpu::kQueueSurface + static_cast<uint32_t>(c), wave);
+      ++wave.bounce;
+      wave.ray_queue = 1 - wave.ray_queue;
+      prepare(gpu::kPrepareTrace, wave);
+    }
+    commands_.submit_and_wait();
+  }
+  commands_.set_timing(false);
+  const std::vector<uint32_t> flux = photons_->download_all<uint32_t>();
+  const uint32_t caustics = static_cast<const uint32_t*>(counters_->mapped())[gpu::kCounterCaustics];
+  std::vector<glm::uvec2> guide;
+  if (options.guiding == Guiding::kOn || guide_pays(flux, caustics)) guide = build_guide(flux);
+  guide_seconds_ = timer.seconds();
+  return guide;
+}
+
+void WaveTracer::list_pixels(std::span<const glm::uvec2> listed) {
+  pixel_list_->upload(listed.data(), listed.size_bytes());
+}
+
+bool WaveTracer::trace(WaveParams wave, const std::function<bool()>& goes_on, RenderStatistics& statistics) {
+  if (plan_.baked) {
+    dispatch_lanes(kernels_.follow_paths, wave.pixel_count, wave);
+    const Timer submission;
+    commands_.submit_and_wait();
+    if (submission.seconds() > kLongestSubmission)
+      pixels_per_wave_ = std::max(pixels_per_wave_ / 2, gpu::kWorkgroupSize);
+    if (submission.seconds() < kLongestSubmission / 3) pixels_per_wave_ = std::min(2 * pixels_per_wave_, plan_.pixels);
+    take_counters(statistics);
+    return true;
+  }
+  begin_paths(kernels_.init_from_camera, wave);
+  const uint64_t end = last_bounce();
+  while (wave.bounce < end) {
+    const uint64_t until = std::min<uint64_t>(end, wave.bounce + bounces_per_submit_);
+    while (wave.bounce < until) record_bounce(wave);
+    if (wave.bounce >= end) break;
+    const Timer submission;
+    commands_.submit_and_wait();
+    bounces_per_submit_ = submission.seconds() > kLongestSubmission ? std::max(bounces_per_submit_ / 2, 1u)
+                                                                    : std::min(bounces_per_submit_ + 1, kBouncesPerSubmit);
+    if (!goes_on()) return false;
+    const auto* words = static_cast<const uint32_t*>(counters_->mapped());
+    if (words[gpu::kCounterQueue + wave.ray_queue] == 0) break;
+  }
+  dispatch_lanes(kernels_.write_moment, wave.pixel_count * wave.block_count, wave);
+  dispatch_lanes(kernels_.write_film, wave.pixel_count * wave.block_count, wave);
+  commands_.submit_and_wait();
+  take_counters(statistics);
+  return true;
+}
+
+void WaveTracer::take_counters(RenderStatistics& statistics) {
+  auto* words = static_cast<uint32_t*>(counters_->mapped());
+  statistics.closest_rays += words[gpu::kCounterClosestTotal];
+  statistics.shadow_rays += words[gpu::kCounterShadowTotal];
+  statistics.nonfinite += words[gpu::kCounterNonfinite];
+  statistics.overflow += words[gpu::kCounterOverflow];
+  const uint32_t unfinished = words[gpu::kCounterUnfinished];
+  for (uint32_t w = gpu::kCounterClosestTotal; w <= gpu::kCounterUnfinished; ++w) words[w] = 0;
+  if (unfinished > 0)
+    throw RenderError(fmt::format("{} ended the loops of {} lanes before their rays were traced to the end: the scene "
+                                  "has rays of too many steps, or paths of too many bounces, for this driver",
+                                  device_.info().driver, unfinished));
+}
+
+}  // namespace tachylite

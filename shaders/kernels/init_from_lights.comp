@@ -1,0 +1,66 @@
+// Starts photons: one a lane, from a light that is chosen by its power, uniform over its area and by the cosine. Only
+// the guide learns from them, so their density may be approximate (elliptic shapes, textures).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+layout(local_size_x = 64) in;
+#include "base/queues.glsl"
+#include "light/light.glsl"
+#include "path/path_sampler.glsl"
+layout(set = 0, binding = kBindEmission) uniform samplerBuffer emission;
+
+// The first light whose share, summed up to and with it, exceeds u.
+uint choose_emitter(float u) {
+  uint first = 0u, last = params.light_count - 1u;
+  while (first < last) {
+    uint middle = (first + last) / 2u;
+    if (texelFetch(emission, int(middle)).x > u) last = middle; else first = middle + 1u;
+  }
+  return first;
+}
+
+void main() {
+  uint slot = gl_GlobalInvocationID.x;
+  bool owned = slot < wave.pixel_count * wave.block_count * kBlockSamples;
+  append_to_queue(kQueueRays0, owned, slot);
+  if (!owned) return;
+
+  uvec2 pixel;
+  pixel_of(slot_tile_pixel(slot), pixel);
+  PathSampler path_sampler = begin_path_sampler(film_pixel(pixel), slot_sample(slot), params.seed);
+  vec4 u = camera_sample(path_sampler);
+  uint light = kLightRows * choose_emitter(lens_sample(path_sampler).x);
+  vec4 row0 = load_light(light), row1 = load_light(light + 1u), row2 = load_light(light + 2u);
+  vec4 row3 = load_light(light + 3u), row4 = load_light(light + 4u);
+  uint kind = floatBitsToUint(row0.w) & kLightKindMask;
+  vec3 p = row1.xyz, n = row4.xyz;
+  uint leaving = floatBitsToUint(row1.w);
+  if (is_light(kind, kLightTriangles)) {
+    vec2 b = sample_uniform_triangle(u.xy).xy;
+    p += b.x * row2.xyz + b.y * row3.xyz;
+  }
+  if (is_light(kind, kLightRectangle)) {
+    p += u.x * row2.xyz + u.y * row3.xyz;
+    if (u.x + u.y >= 1.0) leaving = floatBitsToUint(row3.w);
+  }
+  if (is_light(kind, kLightDisk)) {
+    vec2 q = sample_uniform_disk(u.xy);
+    p += q.x * row2.xyz + q.y * row3.xyz;
+  }
+  if (is_light(kind, kLightSphere)) {
+    n = sample_uniform_sphere(u.xy);
+    p += row2.x * n;
+    if (row2.y != 0.0) n = -n;
+  }
+  if (is_light(kind, kLightCylinder)) {
+    vec2 cs = cos_sin_turns(u.x);
+    p += cs.x * row2.xyz + cs.y * row3.xyz + u.y * row4.xyz;
+    n = normalize(cross(cs.x * row3.xyz - cs.y * row2.xyz, row4.xyz)) * (row3.w != 0.0 ? -1.0 : 1.0);
+  }
+  vec3 d = to_world(frame_from_normal(n), sample_cosine_hemisphere(u.zw));
+  p += n * (1e-5 * max_component(abs(p)));
+  store_path(kPathOrigin, slot, vec4(p, uintBitsToFloat(leaving)));
+  store_path(kPathDirection, slot, vec4(d, 0.0));
+  store_path(kPathBeta, slot, vec4(row0.xyz * (3.0 / max(row0.x + row0.y + row0.z, 1e-30)), 1.0));
+  store_path(kPathRadiance, slot, vec4(0.0));
+  store_path(kPathHit, slot, vec4(0.0, 0.0, 0.0, infinity()));
+}

@@ -1,0 +1,110 @@
+// The guide's table: path/guide_table.glsl draws from the densities of build_guide, which follow the photons.
+
+#include <bit>
+#include <cmath>
+#include <random>
+
+#include "shared/bindings.h"
+#include "shared/guide.h"
+#include "support/chi2.h"
+#include "support/device_test.h"
+#include "wavefront/photon_guide.h"
+
+namespace tachylite::test {
+namespace {
+
+using gpu::kGuideBins;
+using gpu::kGuideCellBins;
+
+constexpr uint32_t kCells = 4, kSamples = 1 << 18;
+const double kLevel = sidak(1e-4, 4);
+
+// No photon; one bin full of them; few; a bright quarter on noise.
+std::vector<uint32_t> photons() {
+  std::mt19937 generator(3);
+  std::vector<uint32_t> flux(kCells * kGuideCellBins, 0);
+  flux[kGuideCellBins + 37] = 5000 * static_cast<uint32_t>(gpu::kPhotonUnit);
+  for (int i = 0; i < 20; ++i) flux[2 * kGuideCellBins + generator() % kGuideCellBins] += 256;
+  for (uint32_t b = 0; b < kGuideCellBins; ++b)
+    flux[3 * kGuideCellBins + b] = generator() % 2000 + (b % kGuideBins < 8 && b / kGuideBins < 8 ? 20000 : 0);
+  return flux;
+}
+
+double density_of(const std::vector<glm::uvec2>& guide, uint32_t cell, uint32_t bin) {
+  return std::bit_cast<float>(guide[cell * kGuideCellBins + bin].y);
+}
+
+TEST(PhotonGuide, AliasTableHasTheDensity) {
+  const std::vector<glm::uvec2> guide = build_guide(photons());
+  for (uint32_t cell = 0; cell < kCells; ++cell) {
+    std::vector<double> probability(kGuideCellBins, 0.0);
+    double sum = 0;
+    for (uint32_t b = 0; b < kGuideCellBins; ++b) {
+      const uint32_t word = guide[cell * kGuideCellBins + b].x;
+      const double stay = (word >> 8) * 0x1p-24;
+      probability[b] += stay;
+      probability[word & 0xff] += 1 - stay;
+      sum += density_of(guide, cell, b);
+      EXPECT_GE(density_of(guide, cell, b), 0.2499);  // so that no weight exceeds 4 times that of the bsdf
+    }
+    EXPECT_NEAR(sum / kGuideCellBins, 1, 1e-6);
+    for (uint32_t b = 0; b < kGuideCellBins; ++b) EXPECT_NEAR(probability[b], density_of(guide, cell, b), 1e-5) << cell << " " << b;
+  }
+}
+
+TEST(PhotonGuide, FollowsPhotonsWhereThereAreMany) {
+  const std::vector<glm::uvec2> guide = build_guide(photons());
+  for (uint32_t b = 0; b < kGuideCellBins; ++b) EXPECT_EQ(density_of(guide, 0, b), 1);
+  // Three quarters of the samples; of those 1 / (1 + 4 * 0.2 + 4 * 0.04) in the bin itself.
+  EXPECT_NEAR(density_of(guide, 1, 37) / kGuideCellBins, 0.75 / 1.96, 0.01);
+  EXPECT_GT(density_of(guide, 3, 0), 2 * density_of(guide, 3, kGuideCellBins - 1));
+}
+
+using GuideTable = DeviceTest;
+
+std::vector<glm::vec4> run(const std::vector<glm::uvec2>& guide, uint32_t cell, bool guided) {
+  KernelRun kernel("guide");
+  kernel.constant(0, guided).push(glm::uvec2(kSamples, cell));
+  kernel.texels(gpu::kBindGuide, VK_FORMAT_R32G32_UINT, std::span<const glm::uvec2>(guide));
+  kernel.output<glm::vec4>(1, kSamples);
+  return kernel.run(kSamples).result<glm::vec4>(1);
+}
+
+// In quarters of the bins, so that the numbers must be uniform within a bin, too. 2^18 samples in 1024 of them see a
+// density that is off by 3 % (standard deviation) with probability 0.99.
+TEST_F(GuideTable, DrawsFromItsDensity) {
+  const std::vector<glm::uvec2> guide = build_guide(photons());
+  for (uint32_t cell = 0; cell < kCells; ++cell) {
+    constexpr uint32_t kFine = 2 * kGuideBins;
+    std::vector<double> observed(kFine * kFine, 0.0), expected(kFine * kFine);
+    for (uint32_t i = 0; i < kFine * kFine; ++i) {
+      const uint32_t bin = i % kFine / 2 + kGuideBins * (i / kFine / 2);
+      expected[i] = kSamples * density_of(guide, cell, bin) / (kFine * kFine);
+    }
+    for (const glm::vec4& s : run(guide, cell, true)) {
+      ASSERT_TRUE(s.x >= 0 && s.x < 1 && s.y >= 0 && s.y < 1);
+      const auto x = static_cast<uint32_t>(s.x * kFine), y = static_cast<uint32_t>(s.y * kFine);
+      observed[y * kFine + x] += 1;
+      ASSERT_EQ(s.z, static_cast<float>(density_of(guide, cell, y / 2 * kGuideBins + x / 2)));
+    }
+    const Chi2Result result = chi2_test(observed, expected, kLevel);
+    EXPECT_TRUE(result.accepted) << cell << ": " << result.message;
+    EXPECT_LT(result.detectable, 0.04);
+  }
+}
+
+// The density of a direction is that of the numbers that it was sampled with, but for rounding at the borders of bins.
+TEST_F(GuideTable, FindsTheBinOfADirection) {
+  const std::vector<glm::uvec2> guide = build_guide(photons());
+  for (const bool guided : {true, false}) {
+    int wrong = 0;
+    for (const glm::vec4& s : run(guide, 3, guided)) {
+      const uint32_t bin = static_cast<uint32_t>(s.x * kGuideBins) + kGuideBins * static_cast<uint32_t>(s.y * kGuideBins);
+      wrong += static_cast<uint32_t>(s.w) != bin || s.z != static_cast<float>(density_of(guide, 3, bin));
+    }
+    EXPECT_LE(wrong, kSamples / 20000);
+  }
+}
+
+}  // namespace
+}  // namespace tachylite::test
