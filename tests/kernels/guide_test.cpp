@@ -16,13 +16,13 @@ namespace {
 using gpu::kGuideBins;
 using gpu::kGuideCellBins;
 
-constexpr uint32_t kCells = 4, kSamples = 1 << 18;
-const double kLevel = sidak(1e-4, 4);
+constexpr uint32_t kGuideCellsTested = 4, kGuideSamples = 1 << 18;
+const double kGuideLevel = sidak(1e-4, 4);
 
 // No photon; one bin full of them; few; a bright quarter on noise.
-std::vector<uint32_t> photons() {
+std::vector<uint32_t> some_photons() {
   std::mt19937 generator(3);
-  std::vector<uint32_t> flux(kCells * kGuideCellBins, 0);
+  std::vector<uint32_t> flux(kGuideCellsTested * kGuideCellBins, 0);
   flux[kGuideCellBins + 37] = 5000 * static_cast<uint32_t>(gpu::kPhotonUnit);
   for (int i = 0; i < 20; ++i) flux[2 * kGuideCellBins + generator() % kGuideCellBins] += 256;
   for (uint32_t b = 0; b < kGuideCellBins; ++b)
@@ -35,8 +35,8 @@ double density_of(const std::vector<glm::uvec2>& guide, uint32_t cell, uint32_t 
 }
 
 TEST(PhotonGuide, AliasTableHasTheDensity) {
-  const std::vector<glm::uvec2> guide = build_guide(photons());
-  for (uint32_t cell = 0; cell < kCells; ++cell) {
+  const std::vector<glm::uvec2> guide = build_guide(some_photons());
+  for (uint32_t cell = 0; cell < kGuideCellsTested; ++cell) {
     std::vector<double> probability(kGuideCellBins, 0.0);
     double sum = 0;
     for (uint32_t b = 0; b < kGuideCellBins; ++b) {
@@ -53,7 +53,7 @@ TEST(PhotonGuide, AliasTableHasTheDensity) {
 }
 
 TEST(PhotonGuide, FollowsPhotonsWhereThereAreMany) {
-  const std::vector<glm::uvec2> guide = build_guide(photons());
+  const std::vector<glm::uvec2> guide = build_guide(some_photons());
   for (uint32_t b = 0; b < kGuideCellBins; ++b) EXPECT_EQ(density_of(guide, 0, b), 1);
   // Three quarters of the samples; of those 1 / (1 + 4 * 0.2 + 4 * 0.04) in the bin itself.
   EXPECT_NEAR(density_of(guide, 1, 37) / kGuideCellBins, 0.75 / 1.96, 0.01);
@@ -62,32 +62,32 @@ TEST(PhotonGuide, FollowsPhotonsWhereThereAreMany) {
 
 using GuideTable = DeviceTest;
 
-std::vector<glm::vec4> run(const std::vector<glm::uvec2>& guide, uint32_t cell, bool guided) {
+std::vector<glm::vec4> run_guide(const std::vector<glm::uvec2>& guide, uint32_t cell, bool guided) {
   KernelRun kernel("guide");
-  kernel.constant(0, guided).push(glm::uvec2(kSamples, cell));
+  kernel.constant(0, guided).push(glm::uvec2(kGuideSamples, cell));
   kernel.texels(gpu::kBindGuide, VK_FORMAT_R32G32_UINT, std::span<const glm::uvec2>(guide));
-  kernel.output<glm::vec4>(1, kSamples);
-  return kernel.run(kSamples).result<glm::vec4>(1);
+  kernel.output<glm::vec4>(1, kGuideSamples);
+  return kernel.run(kGuideSamples).result<glm::vec4>(1);
 }
 
 // In quarters of the bins, so that the numbers must be uniform within a bin, too. 2^18 samples in 1024 of them see a
 // density that is off by 3 % (standard deviation) with probability 0.99.
 TEST_F(GuideTable, DrawsFromItsDensity) {
-  const std::vector<glm::uvec2> guide = build_guide(photons());
-  for (uint32_t cell = 0; cell < kCells; ++cell) {
+  const std::vector<glm::uvec2> guide = build_guide(some_photons());
+  for (uint32_t cell = 0; cell < kGuideCellsTested; ++cell) {
     constexpr uint32_t kFine = 2 * kGuideBins;
     std::vector<double> observed(kFine * kFine, 0.0), expected(kFine * kFine);
     for (uint32_t i = 0; i < kFine * kFine; ++i) {
       const uint32_t bin = i % kFine / 2 + kGuideBins * (i / kFine / 2);
-      expected[i] = kSamples * density_of(guide, cell, bin) / (kFine * kFine);
+      expected[i] = kGuideSamples * density_of(guide, cell, bin) / (kFine * kFine);
     }
-    for (const glm::vec4& s : run(guide, cell, true)) {
+    for (const glm::vec4& s : run_guide(guide, cell, true)) {
       ASSERT_TRUE(s.x >= 0 && s.x < 1 && s.y >= 0 && s.y < 1);
       const auto x = static_cast<uint32_t>(s.x * kFine), y = static_cast<uint32_t>(s.y * kFine);
       observed[y * kFine + x] += 1;
       ASSERT_EQ(s.z, static_cast<float>(density_of(guide, cell, y / 2 * kGuideBins + x / 2)));
     }
-    const Chi2Result result = chi2_test(observed, expected, kLevel);
+    const Chi2Result result = chi2_test(observed, expected, kGuideLevel);
     EXPECT_TRUE(result.accepted) << cell << ": " << result.message;
     EXPECT_LT(result.detectable, 0.04);
   }
@@ -95,14 +95,14 @@ TEST_F(GuideTable, DrawsFromItsDensity) {
 
 // The density of a direction is that of the numbers that it was sampled with, but for rounding at the borders of bins.
 TEST_F(GuideTable, FindsTheBinOfADirection) {
-  const std::vector<glm::uvec2> guide = build_guide(photons());
+  const std::vector<glm::uvec2> guide = build_guide(some_photons());
   for (const bool guided : {true, false}) {
     int wrong = 0;
-    for (const glm::vec4& s : run(guide, 3, guided)) {
+    for (const glm::vec4& s : run_guide(guide, 3, guided)) {
       const uint32_t bin = static_cast<uint32_t>(s.x * kGuideBins) + kGuideBins * static_cast<uint32_t>(s.y * kGuideBins);
       wrong += static_cast<uint32_t>(s.w) != bin || s.z != static_cast<float>(density_of(guide, 3, bin));
     }
-    EXPECT_LE(wrong, kSamples / 20000);
+    EXPECT_LE(wrong, kGuideSamples / 20000);
   }
 }
 
