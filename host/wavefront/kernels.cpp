@@ -32,7 +32,8 @@ std::string class_name(const MaterialClass& c) {
 
 std::string surface_kernel_name(const MaterialClass& c) { return "shade_surface<" + class_name(c) + ">"; }
 
-SpecializationConstants with_sampler(SpecializationConstants constants, const RenderOptions& options, uint64_t end_sample) {
+SpecializationConstants with_sampler(SpecializationConstants constants, const RenderOptions& options,
+                                     uint64_t end_sample) {
   constants[gpu::kFeatureSampler] =
       options.sampler == SamplerKind::kIndependent ? gpu::kSamplerIndependent : gpu::kSamplerSobol;
   constants[gpu::kFeatureLog2Samples] = static_cast<uint32_t>(std::bit_width(end_sample - 1));
@@ -41,8 +42,8 @@ SpecializationConstants with_sampler(SpecializationConstants constants, const Re
 
 }  // namespace
 
-PhotonKernels build_photon_kernels(vulkan::Device& device, const vulkan::BindingTable& table, const FeatureSet& features,
-                                   const RenderOptions& options, uint64_t end_sample) {
+PhotonKernels build_photon_kernels(vulkan::Device& device, const vulkan::BindingTable& table,
+                                   const FeatureSet& features, const RenderOptions& options, uint64_t end_sample) {
   PhotonKernels kernels;
   const auto make = [&](const std::string& name, const std::string& file, SpecializationConstants constants) {
     kernels.names.push_back(name);

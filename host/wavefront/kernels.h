@@ -28,8 +28,8 @@ struct PhotonKernels {
   std::vector<std::string> names;
 };
 /// Of scenes that may_be_guided().
-PhotonKernels build_photon_kernels(vulkan::Device& device, const vulkan::BindingTable& table, const FeatureSet& features,
-                                   const RenderOptions& options, uint64_t end_sample);
+PhotonKernels build_photon_kernels(vulkan::Device& device, const vulkan::BindingTable& table,
+                                   const FeatureSet& features, const RenderOptions& options, uint64_t end_sample);
 /// Replaces the kernels of classes that can_be_guided() by those that are.
 void guide_kernels(vulkan::Device& device, const vulkan::BindingTable& table, const FeatureSet& features,
                    const RenderOptions& options, uint64_t end_sample, Kernels& kernels);

@@ -78,8 +78,9 @@ bool may_be_guided(const PackedScene& scene, Guiding guiding) {
                               1u << gpu::kBsdfDielectric | 1u << gpu::kBsdfRoughDielectric;
   if (guiding == Guiding::kOff || scene.emission.empty() || (f.lights & kKinds & ~kAreaLights) != 0) return false;
   if (f.media != 0 || f.max_depth <= 2 || f.strategy != gpu::kStrategyMis) return false;
-  const bool focused = std::any_of(f.classes.begin(), f.classes.end(), [](const MaterialClass& c) { return (c.bsdfs & kFocus) != 0; });
-  return (focused || guiding == Guiding::kOn) && std::any_of(f.classes.begin(), f.classes.end(), can_be_guided);
+  const auto focuses = [](const MaterialClass& c) { return (c.bsdfs & kFocus) != 0; };
+  return std::any_of(f.classes.begin(), f.classes.end(), can_be_guided) &&
+         (guiding == Guiding::kOn || std::any_of(f.classes.begin(), f.classes.end(), focuses));
 }
 
 uint32_t photon_count(const gpu::RenderParams& params) {

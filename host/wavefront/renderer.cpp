@@ -39,8 +39,8 @@ uint64_t MemoryPlan::total() const {
 struct Renderer::Impl {
   const PackedScene& scene;
   RenderOptions options;
-  gpu::RenderParams params;
   WaveTracer tracer;
+  const gpu::RenderParams& params;
   RenderStatistics statistics;
 
   // Of the render that goes on.
@@ -51,7 +51,7 @@ struct Renderer::Impl {
   uint64_t estimated_samples = 0;  // when progress.relative_error was computed
 
   Impl(vulkan::Device& device, const PackedScene& s, const RenderOptions& o)
-      : scene(s), options(with_pilot(o)), params(s.params), tracer(device, s, options) {
+      : scene(s), options(with_pilot(o)), tracer(device, s, options), params(tracer.params()) {
     statistics.upload_seconds = tracer.upload_seconds();
     statistics.compile_seconds = tracer.compile_seconds();
     statistics.device_bytes = device.allocated_bytes();

@@ -69,8 +69,9 @@ struct MemoryPlan {
 /// The wavefront path tracer: pipelines for the scene's FeatureSet, its buffers, and the loop of kernels.
 class Renderer {
  public:
-  /// Uploads and builds the pipelines. `scene` must outlive this. Throws RenderError naming needed and available bytes when it cannot fit, and
-  /// InputError where kFused is asked for and the scene does not fit.
+  /// Uploads, builds the pipelines and, where that may pay, traces photons. `scene` must outlive this. Throws RenderError
+  /// naming needed and available bytes when it cannot fit, and InputError where kFused is asked for and the scene does
+  /// not fit.
   Renderer(vulkan::Device& device, const PackedScene& scene, const RenderOptions& options);
   ~Renderer();
 

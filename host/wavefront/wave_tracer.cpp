@@ -28,10 +28,10 @@ constexpr uint32_t kFusedBlocks = 8;
 constexpr uint32_t kBouncesPerSubmit = 16;  // between two looks at the queue's length; fewer where they take longer
 constexpr double kLongestSubmission = 0.3;  // seconds
 
-// Paths in flight: whole tiles of whole blocks, no more than the render has.
-uint32_t capacity_for(const gpu::RenderParams& params, const RenderOptions& options) {
+// Paths in flight: whole tiles of whole blocks, no more than the render has, or its `photons`.
+uint32_t capacity_for(const gpu::RenderParams& params, const RenderOptions& options, uint64_t photons) {
   const uint64_t blocks = (options.samples + kBlockSamples - 1) / kBlockSamples;
-  const uint64_t all = uint64_t{params.tile_count} * kTilePixels * kBlockSamples * blocks;
+  const uint64_t all = std::max(uint64_t{params.tile_count} * kTilePixels * kBlockSamples * blocks, photons);
   const uint64_t step = kTilePixels * kBlockSamples;
   const uint64_t wanted = std::min<uint64_t>(std::max<uint64_t>(options.max_paths, step), all);
   return static_cast<uint32_t>(wanted / step * step);
@@ -47,7 +47,8 @@ std::optional<BakedGeometry> choose_baked(const PackedScene& scene, const Render
   if (options.structure == KernelStructure::kStages) return std::nullopt;
   std::optional<BakedGeometry> baked = bake_geometry(scene);
   if (!baked && options.structure == KernelStructure::kFused)
-    throw InputError("the scene does not fit into one kernel: it is too large, or has materials or textures that need stages");
+    throw InputError("the scene does not fit into one kernel: it is too large, or has materials or textures that need "
+                     "stages");
   return baked;
 }
 
@@ -60,8 +61,8 @@ std::vector<glm::uvec2> consecutive_pixels(const WaveParams& wave) {
 }
 
 WavePlan::WavePlan(const PackedScene& scene, const RenderOptions& options)
-    : baked(choose_baked(scene, options)), capacity(capacity_for(scene.params, options)) {
-  may_guide = !baked && may_be_guided(scene, options.guiding);
+    : baked(choose_baked(scene, options)), may_guide(!baked && may_be_guided(scene, options.guiding)) {
+  capacity = capacity_for(scene.params, options, may_guide ? photon_count(scene.params) : 0);
   const uint32_t all_pixels = scene.params.tile_count * kTilePixels;
   if (baked) {
     // A lane renders all blocks of its pixel: many even out the lengths of paths.
@@ -90,7 +91,8 @@ WaveTracer::WaveTracer(vulkan::Device& device, const PackedScene& scene, const R
   upload_seconds_ = upload_timer.seconds();
 
   const Timer compile_timer;
-  kernels_ = build_kernels(device_, *table_, features_, options, params_.end_sample, plan_.baked ? &*plan_.baked : nullptr);
+  const BakedGeometry* baked = plan_.baked ? &*plan_.baked : nullptr;
+  kernels_ = build_kernels(device_, *table_, features_, options, params_.end_sample, baked);
   if (plan_.may_guide) {
     const std::vector<glm::uvec2> guide = learn_guide(options);
     if (!guide.empty()) {
@@ -244,9 +246,10 @@ std::vector<glm::uvec2> WaveTracer::learn_guide(const RenderOptions& options) {
   }
   commands_.set_timing(false);
   const std::vector<uint32_t> flux = photons_->download_all<uint32_t>();
-  const uint32_t caustics = static_cast<const uint32_t*>(counters_->mapped())[gpu::kCounterCaustics];
+  auto* words = static_cast<uint32_t*>(counters_->mapped());
+  words[gpu::kCounterShadowTotal] = 0;  // of photons they were queued only
   std::vector<glm::uvec2> guide;
-  if (options.guiding == Guiding::kOn || guide_pays(flux, caustics)) guide = build_guide(flux);
+  if (options.guiding == Guiding::kOn || guide_pays(flux, words[gpu::kCounterCaustics])) guide = build_guide(flux);
   guide_seconds_ = timer.seconds();
   return guide;
 }
@@ -274,8 +277,9 @@ bool WaveTracer::trace(WaveParams wave, const std::function<bool()>& goes_on, Re
     if (wave.bounce >= end) break;
     const Timer submission;
     commands_.submit_and_wait();
-    bounces_per_submit_ = submission.seconds() > kLongestSubmission ? std::max(bounces_per_submit_ / 2, 1u)
-                                                                    : std::min(bounces_per_submit_ + 1, kBouncesPerSubmit);
+    const bool long_one = submission.seconds() > kLongestSubmission;
+    bounces_per_submit_ = long_one ? std::max(bounces_per_submit_ / 2, 1u)
+                                   : std::min(bounces_per_submit_ + 1, kBouncesPerSubmit);
     if (!goes_on()) return false;
     const auto* words = static_cast<const uint32_t*>(counters_->mapped());
     if (words[gpu::kCounterQueue + wave.ray_queue] == 0) break;

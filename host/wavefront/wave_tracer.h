@@ -37,19 +37,22 @@ class WaveTracer {
  public:
   WaveTracer(vulkan::Device& device, const PackedScene& scene, const RenderOptions& options);
 
+  const gpu::RenderParams& params() const { return params_; }
   /// Pixels of the next wave at most: no submission is to take long.
   uint32_t pixels_per_wave() const { return pixels_per_wave_; }
   uint32_t most_blocks() const { return plan_.blocks; }
   bool follows_whole_paths() const { return plan_.baked.has_value(); }
   /// Adaptive sampling: the pixels of the next wave, each in tile order, and its first block.
   void list_pixels(std::span<const glm::uvec2> listed);
-  /// False where `goes_on`, which is asked now and then, said so: the wave is abandoned. Else film() and aovs() hold its
-  /// sums. Adds rays, contributions that are not finite and overflows to the statistics. Throws RenderError where the
+  /// False where `goes_on`, which is asked now and then, said so: the wave is abandoned. Else film() and aovs() hold
+  /// its sums. Adds rays, contributions that are not finite and overflows to the statistics. Throws RenderError where the
   /// driver has ended loops too early.
   bool trace(gpu::WaveParams wave, const std::function<bool()>& goes_on, RenderStatistics& statistics);
 
   const glm::vec4* film() const { return static_cast<const glm::vec4*>(film_block_->mapped()); }
-  const glm::vec4* aovs() const { return aov_block_ ? static_cast<const glm::vec4*>(aov_block_->mapped()) : nullptr; }  // or null
+  const glm::vec4* aovs() const {  // or null
+    return aov_block_ ? static_cast<const glm::vec4*>(aov_block_->mapped()) : nullptr;
+  }
   const Kernels& kernels() const { return kernels_; }
   const std::map<std::string, vulkan::KernelTime>& kernel_times() const { return commands_.kernel_times(); }
   double upload_seconds() const { return upload_seconds_; }

@@ -52,11 +52,11 @@ void print_build(const std::vector<BuildResult>& results, bool json) {
 
 void print_paths(const PathsResult& r, bool json) {
   if (json)
-    fmt::print("{{\"mpaths\": {:.3f}, \"embree_mpaths\": {:.3f}, \"ratio\": {:.3f}, \"mean_ratio\": {:.4f}}}\n", r.mpaths,
-               r.embree_mpaths, r.ratio(), r.mean_ratio);
+    fmt::print("{{\"mpaths\": {:.3f}, \"embree_mpaths\": {:.3f}, \"ratio\": {:.3f}, \"mrays\": {:.1f}, \"mean_ratio\": {:.4f}}}\n",
+               r.mpaths, r.embree_mpaths, r.ratio(), r.mrays, r.mean_ratio);
   else
-    fmt::print("Mpaths/s {:.2f}, Embree {:.2f}, ratio {:.3f}; ratio of the images' means {:.4f}\n", r.mpaths,
-               r.embree_mpaths, r.ratio(), r.mean_ratio);
+    fmt::print("Mpaths/s {:.2f}, Embree {:.2f}, ratio {:.3f}; {:.1f} Mrays/s; ratio of the images' means {:.4f}\n", r.mpaths,
+               r.embree_mpaths, r.ratio(), r.mrays, r.mean_ratio);
 }
 
 void print_ray_share(const RayShareResult& r, bool json) {

@@ -106,6 +106,7 @@ PathsResult bench_paths(int repetitions) {
   options.samples = kSamples;
 
   PathsResult result;
+  RenderStatistics statistics;
   glm::dvec3 ours(0), theirs(0);
   double seconds = std::numeric_limits<double>::infinity(), embree_seconds = seconds;
   for (int i = 0; i < repetitions; ++i) {
@@ -114,6 +115,7 @@ PathsResult bench_paths(int repetitions) {
     CpuTimer timer;
     const FilmBuffer film = renderer.render();
     seconds = std::min(seconds, timer.seconds());
+    statistics = renderer.statistics();
     ours += mean(film);
     timer = CpuTimer();
     theirs += embree.render(kEmbreeSamples, kMaxDepth, static_cast<uint64_t>(i), kCores);
@@ -121,6 +123,8 @@ PathsResult bench_paths(int repetitions) {
   }
   const double pixels = static_cast<double>(packed.params.width) * packed.params.height;
   result.mpaths = 1e-6 * kCores * pixels * kSamples / seconds;
+  result.mrays = result.mpaths * static_cast<double>(statistics.closest_rays + statistics.shadow_rays) /
+                 (pixels * kSamples);
   result.embree_mpaths = 1e-6 * kCores * pixels * kEmbreeSamples / embree_seconds;
   result.mean_ratio = (ours.x + ours.y + ours.z) / (theirs.x + theirs.y + theirs.z);
   return result;

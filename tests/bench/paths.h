@@ -10,6 +10,7 @@ namespace tachylite::bench {
 /// 2 threads. Both run in turn; each figure is that of the repetition with least CPU time, as 2 * paths / CPU seconds.
 struct PathsResult {
   double mpaths = 0, embree_mpaths = 0;
+  double mrays = 0;       // million rays a second of ours, with all the work of paths; shadow rays count
   double mean_ratio = 0;  // of the two images' mean radiance: 1 but for noise, else they do not do the same work
   double ratio() const { return mpaths / embree_mpaths; }
 };

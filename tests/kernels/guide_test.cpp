@@ -48,7 +48,8 @@ TEST(PhotonGuide, AliasTableHasTheDensity) {
       EXPECT_GE(density_of(guide, cell, b), 0.2499);  // so that no weight exceeds 4 times that of the bsdf
     }
     EXPECT_NEAR(sum / kGuideCellBins, 1, 1e-6);
-    for (uint32_t b = 0; b < kGuideCellBins; ++b) EXPECT_NEAR(probability[b], density_of(guide, cell, b), 1e-5) << cell << " " << b;
+    for (uint32_t b = 0; b < kGuideCellBins; ++b)
+      EXPECT_NEAR(probability[b], density_of(guide, cell, b), 1e-5) << cell << " " << b;
   }
 }
 
@@ -99,7 +100,8 @@ TEST_F(GuideTable, FindsTheBinOfADirection) {
   for (const bool guided : {true, false}) {
     int wrong = 0;
     for (const glm::vec4& s : run_guide(guide, 3, guided)) {
-      const uint32_t bin = static_cast<uint32_t>(s.x * kGuideBins) + kGuideBins * static_cast<uint32_t>(s.y * kGuideBins);
+      const auto x = static_cast<uint32_t>(s.x * kGuideBins), y = static_cast<uint32_t>(s.y * kGuideBins);
+      const uint32_t bin = x + kGuideBins * y;
       wrong += static_cast<uint32_t>(s.w) != bin || s.z != static_cast<float>(density_of(guide, 3, bin));
     }
     EXPECT_LE(wrong, kGuideSamples / 20000);

@@ -28,7 +28,8 @@ std::string room(const std::string& lamp, const std::string& ball = R"(<bsdf typ
   return R"(<integrator type="path"><integer name="max_depth" value="8"/></integrator>)" +
          sensor_element(24, 24, "0, 0, 3.9") + wall(R"(<rotate x="1" angle="-90"/><translate y="-1"/>)") +
          wall(R"(<rotate x="1" angle="90"/><translate y="1"/>)") + wall(R"(<translate z="-1"/>)") +
-         wall(R"(<rotate y="1" angle="-90"/><translate x="1"/>)") + wall(R"(<rotate y="1" angle="90"/><translate x="-1"/>)") +
+         wall(R"(<rotate y="1" angle="-90"/><translate x="1"/>)") +
+         wall(R"(<rotate y="1" angle="90"/><translate x="-1"/>)") +
          R"(<shape type="sphere"><float name="radius" value="0.4"/><point name="center" x="0.3" y="-0.59" z="0.3"/>)" +
          ball + "</shape>" + lamp + kLampEnd;
 }
@@ -59,11 +60,14 @@ struct Lamp {
   const char* shape;
 };
 const Lamp kLamps[] = {
-    {"Rectangle", R"(<shape type="rectangle"><transform name="to_world"><scale value="0.12"/><rotate x="1" angle="90"/><translate y="0.8"/></transform>)"},
+    {"Rectangle", R"(<shape type="rectangle"><transform name="to_world"><scale value="0.12"/><rotate x="1" angle="90"/>
+<translate y="0.8"/></transform>)"},
     {"Cube", R"(<shape type="cube"><transform name="to_world"><scale value="0.08"/><translate y="0.8"/></transform>)"},
     {"Sphere", R"(<shape type="sphere"><float name="radius" value="0.12"/><point name="center" x="0" y="0.8" z="0"/>)"},
-    {"Disk", R"(<shape type="disk"><transform name="to_world"><scale value="0.12"/><rotate x="1" angle="90"/><translate y="0.8"/></transform>)"},
-    {"Cylinder", R"(<shape type="cylinder"><float name="radius" value="0.06"/><point name="p0" x="-0.2" y="0.8" z="0"/><point name="p1" x="0.2" y="0.8" z="0"/>)"}};
+    {"Disk", R"(<shape type="disk"><transform name="to_world"><scale value="0.12"/><rotate x="1" angle="90"/>
+<translate y="0.8"/></transform>)"},
+    {"Cylinder", R"(<shape type="cylinder"><float name="radius" value="0.06"/>
+<point name="p0" x="-0.2" y="0.8" z="0"/><point name="p1" x="0.2" y="0.8" z="0"/>)"}};
 class GuidedLamps : public DeviceTest, public ::testing::WithParamInterface<Lamp> {};
 
 // Photons that leave a lamp from the wrong places or in wrong directions find other caustics. Measured: 0.44 to 0.62 of

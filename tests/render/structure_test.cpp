@@ -19,6 +19,7 @@ FilmBuffer render(const Scene& scene, KernelStructure structure) {
   RenderOptions options;
   options.samples = 16;
   options.structure = structure;
+  options.guiding = Guiding::kOff;  // the one kernel has none
   return render_on_device(scene, options).film;
 }
 
