@@ -16,9 +16,9 @@ using gpu::kGuideCellBins;
 
 // Of directions that follow the photons where there are many. The rest follow the cosine, so that no weight exceeds
 // 1 / (1 - kGuidedShare) times that of an unguided sample.
-constexpr double kGuidedShare = 0.75;
+constexpr double kGuidedShare = 0.85;
 // Mean photons in a cell that count as much as the uniform distribution.
-constexpr double kUniformPhotons = 64;
+constexpr double kUniformPhotons = 16;
 // Photons are spread over the bins beside their own, by this for a side and its square for a corner.
 constexpr double kSpread = 0.2;
 constexpr double kCellsAcross = 16;  // the film, at least

@@ -70,7 +70,7 @@ const Lamp kLamps[] = {
 <point name="p0" x="-0.2" y="0.8" z="0"/><point name="p1" x="0.2" y="0.8" z="0"/>)"}};
 class GuidedLamps : public DeviceTest, public ::testing::WithParamInterface<Lamp> {};
 
-// Photons that leave a lamp from the wrong places or in wrong directions find other caustics. Measured: 0.44 to 0.62 of
+// Photons that leave a lamp from the wrong places or in wrong directions find other caustics. Measured: about 0.4 to 0.6 of
 // the noise; with photons that leave by the lamp's back, 0.81 to 0.96, or no caustics at all.
 TEST_P(GuidedLamps, HaveLessNoise) {
   const Scene scene = scene_from_elements(room(GetParam().shape));
