@@ -69,7 +69,9 @@ void build_alias_table(const Densities& density, std::span<glm::uvec2> out) {
 
 }  // namespace
 
-bool can_be_guided(const MaterialClass& c) { return c.bsdfs == 1u << gpu::kBsdfDiffuse && c.max_leaves == 1; }
+bool can_be_guided(const MaterialClass& c) {
+  return c.bsdfs == 1u << gpu::kBsdfDiffuse && c.max_leaves == 1 && (c.flags & gpu::kMaterialNestedFrames) == 0;
+}
 
 bool may_be_guided(const PackedScene& scene, Guiding guiding) {
   const FeatureSet& f = scene.features;
