@@ -31,12 +31,14 @@ std::string class_name(const MaterialClass& c) {
 }
 
 std::string surface_kernel_name(const MaterialClass& c) { return "shade_surface<" + class_name(c) + ">"; }
+std::string surface_kernel_file(const MaterialClass& c) { return "shade_surface" + bsdf_kernel_variant(c); }
 
-SpecializationConstants with_sampler(SpecializationConstants constants, const RenderOptions& options,
-                                     uint64_t end_sample) {
+// With what does not depend on the scene.
+SpecializationConstants of_render(SpecializationConstants constants, const RenderOptions& options, uint64_t end_sample) {
   constants[gpu::kFeatureSampler] =
       options.sampler == SamplerKind::kIndependent ? gpu::kSamplerIndependent : gpu::kSamplerSobol;
   constants[gpu::kFeatureLog2Samples] = static_cast<uint32_t>(std::bit_width(end_sample - 1));
+  constants[gpu::kFeaturePixelList] = options.adaptive;
   return constants;
 }
 
@@ -47,9 +49,8 @@ PhotonKernels build_photon_kernels(vulkan::Device& device, const vulkan::Binding
   PhotonKernels kernels;
   const auto make = [&](const std::string& name, const std::string& file, SpecializationConstants constants) {
     kernels.names.push_back(name);
-    constants[gpu::kFeaturePixelList] = options.adaptive;
     return std::make_unique<Kernel>(device, table, name, kernel_spirv(file),
-                                    with_sampler(std::move(constants), options, end_sample));
+                                    of_render(std::move(constants), options, end_sample));
   };
   kernels.init_from_lights = make("init_from_lights", "init_from_lights", features.constants());
   for (size_t c = 0; c < features.classes.size(); ++c) {
@@ -58,7 +59,7 @@ PhotonKernels build_photon_kernels(vulkan::Device& device, const vulkan::Binding
     constants[gpu::kFeatureGuide] = constants[gpu::kFeaturePhotons] = true;
     kernels.scatter_photons.push_back(can_be_guided(material_class)
                                           ? make("scatter_photons<" + class_name(material_class) + ">",
-                                                 "shade_surface" + bsdf_kernel_variant(material_class), constants)
+                                                 surface_kernel_file(material_class), constants)
                                           : nullptr);
   }
   return kernels;
@@ -69,24 +70,21 @@ void guide_kernels(vulkan::Device& device, const vulkan::BindingTable& table, co
   for (size_t c = 0; c < features.classes.size(); ++c) {
     const MaterialClass& material_class = features.classes[c];
     if (!can_be_guided(material_class)) continue;
-    SpecializationConstants constants = with_sampler(features.class_constants(c), options, end_sample);
+    SpecializationConstants constants = of_render(features.class_constants(c), options, end_sample);
     constants[gpu::kFeatureGuide] = true;
-    constants[gpu::kFeaturePixelList] = options.adaptive;
     const std::string before = surface_kernel_name(material_class), name = before + " guided";
     kernels.shade_surface[c] = std::make_unique<Kernel>(
-        device, table, name, kernel_spirv("shade_surface" + bsdf_kernel_variant(material_class)), constants);
+        device, table, name, kernel_spirv(surface_kernel_file(material_class)), constants);
     std::replace(kernels.run.begin(), kernels.run.end(), before, name);
   }
 }
 
 Kernels build_kernels(vulkan::Device& device, const vulkan::BindingTable& table, const FeatureSet& features,
                       const RenderOptions& options, uint64_t end_sample, const BakedGeometry* baked) {
-  SpecializationConstants common = features.constants();
-  const auto of_render = [&](SpecializationConstants constants) {
-    constants[gpu::kFeaturePixelList] = options.adaptive;
-    return with_sampler(std::move(constants), options, end_sample);
+  const auto with_render = [&](SpecializationConstants constants) {
+    return of_render(std::move(constants), options, end_sample);
   };
-  common = of_render(common);
+  const SpecializationConstants common = with_render(features.constants());
 
   Kernels kernels;
   const auto make = [&](const std::string& name, const std::string& file, const SpecializationConstants& constants) {
@@ -94,7 +92,7 @@ Kernels build_kernels(vulkan::Device& device, const vulkan::BindingTable& table,
     return std::make_unique<Kernel>(device, table, name, kernel_spirv(file), constants);
   };
   if (baked) {
-    SpecializationConstants constants = of_render(features.union_constants());
+    SpecializationConstants constants = with_render(features.union_constants());
     constants.insert(baked->constants.begin(), baked->constants.end());
     kernels.follow_paths = make("follow_paths", baked->kernel, constants);
     kernels.skipped = {"tree", "path state and queues", "intersect_closest", "intersect_shadow", "shade_surface"};
@@ -118,8 +116,8 @@ Kernels build_kernels(vulkan::Device& device, const vulkan::BindingTable& table,
   for (size_t c = 0; c < features.classes.size(); ++c) {
     const std::string name = surface_kernel_name(features.classes[c]);
     if (bounces)
-      kernels.shade_surface.push_back(make(name, "shade_surface" + bsdf_kernel_variant(features.classes[c]),
-                                           of_render(features.class_constants(c))));
+      kernels.shade_surface.push_back(make(name, surface_kernel_file(features.classes[c]),
+                                           with_render(features.class_constants(c))));
     else
       kernels.skipped.push_back(name);
   }
@@ -129,7 +127,7 @@ Kernels build_kernels(vulkan::Device& device, const vulkan::BindingTable& table,
   // With several classes the kernel must know the materials of all of them.
   if (shadow && features.media != 0)
     kernels.intersect_shadow =
-        make("intersect_shadow_transmittance", "intersect_shadow_transmittance", of_render(features.union_constants()));
+        make("intersect_shadow_transmittance", "intersect_shadow_transmittance", with_render(features.union_constants()));
   else
     kernels.intersect_shadow = make_if(shadow, "intersect_shadow");
   kernels.sample_medium = make_if(media, "sample_medium");
@@ -138,7 +136,7 @@ Kernels build_kernels(vulkan::Device& device, const vulkan::BindingTable& table,
   kernels.shade_segment = make_if(segments, "shade_segment");
   kernels.write_film = make("write_film", "write_film", common);
   const uint32_t moment = 1u << gpu::kAovMoment;
-  if (features.aovs & ~moment) kernels.write_aov = make("write_aov", "write_aov", of_render(features.union_constants()));
+  if (features.aovs & ~moment) kernels.write_aov = make("write_aov", "write_aov", with_render(features.union_constants()));
   if (features.aovs & moment) kernels.write_moment = make("write_moment", "write_moment", common);
   return kernels;
 }

@@ -7,9 +7,6 @@
 #include "shared/aov.h"
 
 namespace tachylite {
-namespace {
-constexpr uint32_t kTilePixels = gpu::kTileSize * gpu::kTileSize;
-}
 
 std::optional<size_t> pixel_index(const gpu::RenderParams& params, uint32_t tile_pixel) {
   const uint32_t tile = tile_pixel / kTilePixels, inner = tile_pixel % kTilePixels;

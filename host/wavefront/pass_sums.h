@@ -9,6 +9,8 @@
 
 namespace tachylite {
 
+constexpr uint32_t kTilePixels = gpu::kTileSize * gpu::kTileSize;
+
 /// Place in the image (row-major) of a pixel in tile order; none outside.
 std::optional<size_t> pixel_index(const gpu::RenderParams& params, uint32_t tile_pixel);
 

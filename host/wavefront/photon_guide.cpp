@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "pack/float_bits.h"
 #include "shared/guide.h"
 #include "shared/material.h"
 
@@ -50,8 +51,8 @@ void build_alias_table(const Densities& density, std::span<glm::uvec2> out) {
   size_t smalls = 0, larges = 0;
   for (uint32_t i = 0; i < kGuideCellBins; ++i) (rest[i] < 1 ? small[smalls++] : large[larges++]) = i;
   const auto put = [&](uint32_t i, double stay, uint32_t other) {
-    const auto bits = static_cast<uint32_t>(std::clamp(stay * 0x1p24, 1.0, 0x1p24 - 1));
-    out[i] = {bits << 8 | other, std::bit_cast<uint32_t>(static_cast<float>(density[i]))};
+    const auto threshold = static_cast<uint32_t>(std::clamp(stay * 0x1p24, 1.0, 0x1p24 - 1));
+    out[i] = {threshold << 8 | other, bits(density[i])};
   };
   while (smalls > 0 && larges > 0) {
     const uint32_t s = small[--smalls], l = large[larges - 1];
@@ -110,7 +111,7 @@ std::vector<glm::uvec2> build_guide(std::span<const uint32_t> flux) {
       for (const uint32_t f : bins) photons += f / gpu::kPhotonUnit;
       if (photons == 0) {
         for (uint32_t i = 0; i < kGuideCellBins; ++i)
-          guide[cell * kGuideCellBins + i] = {0xffffff00u | i, std::bit_cast<uint32_t>(1.0f)};
+          guide[cell * kGuideCellBins + i] = {0xffffff00u | i, bits(1)};
         continue;
       }
       Densities density = spread(bins);

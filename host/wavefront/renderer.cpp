@@ -20,7 +20,6 @@ namespace {
 using gpu::kBlockSamples;
 using gpu::WaveParams;
 
-constexpr uint32_t kTilePixels = gpu::kTileSize * gpu::kTileSize;
 constexpr auto kLeastPilotBlocks = static_cast<uint32_t>(kLeastPilot / gpu::kBlockSamples);
 
 RenderOptions with_pilot(RenderOptions options) {

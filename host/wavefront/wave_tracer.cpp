@@ -11,6 +11,7 @@
 #include "shared/counters.h"
 #include "shared/path_state.h"
 #include "wavefront/adaptive_sampling.h"
+#include "wavefront/pass_sums.h"
 #include "wavefront/photon_guide.h"
 #include "wavefront/scene_buffers.h"
 
@@ -21,7 +22,6 @@ using gpu::kBlockSamples;
 using gpu::WaveParams;
 using vulkan::Buffer;
 
-constexpr uint32_t kTilePixels = gpu::kTileSize * gpu::kTileSize;
 constexpr uint32_t kFusedPaths = 1u << 24;  // at most, of one dispatch that follows whole paths
 constexpr uint32_t kFirstFusedPaths = 1u << 20;  // of the first: less than a second on one slow core
 constexpr uint32_t kFusedBlocks = 8;
@@ -39,8 +39,8 @@ uint32_t capacity_for(const gpu::RenderParams& params, const RenderOptions& opti
 
 // The samples of every pixel lie below this index.
 uint64_t end_of_samples(const RenderOptions& options) {
-  const bool adaptive = options.adaptive && pilot_samples(options.samples) < options.samples;
-  return std::min(options.first_sample + (adaptive ? uint64_t{kLargestShare} : 1) * options.samples, kMostSamples);
+  const uint64_t share = options.adaptive ? uint64_t{kLargestShare} : 1;
+  return std::min(options.first_sample + share * options.samples, kMostSamples);
 }
 
 std::optional<BakedGeometry> choose_baked(const PackedScene& scene, const RenderOptions& options) {

@@ -47,7 +47,8 @@ void expect_one_expectation(const char* type, const std::string& elements, Kerne
   options.most_samples = 8192;
   for (const char* sampling : {"emitter", "bsdf"}) {
     SCOPED_TRACE(sampling);
-    expect_agreement(scene_from_elements(integrator(type, sampling) + kSensor + elements), judged_by, options, {.structure = structure});
+    const Scene scene = scene_from_elements(integrator(type, sampling) + kSensor + elements);
+    expect_agreement(scene, judged_by, options, {.structure = structure});
   }
 }
 
