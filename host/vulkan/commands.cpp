@@ -16,10 +16,7 @@ Commands::Commands(Device& device) : device_(device) {
     VkCommandPoolCreateInfo pool_create{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool_create.queueFamilyIndex = device.queue_family();
     check(vkCreateCommandPool(device.handle(), &pool_create, nullptr, &pool_), "vkCreateCommandPool");
-    VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-    allocate.commandPool = pool_;
-    allocate.commandBufferCount = 1;
-    check(vkAllocateCommandBuffers(device.handle(), &allocate, &buffer_), "vkAllocateCommandBuffers");
+    allocate();
     VkFenceCreateInfo fence_create{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     check(vkCreateFence(device.handle(), &fence_create, nullptr, &fence_), "vkCreateFence");
   } catch (...) {
@@ -39,13 +36,19 @@ void Commands::destroy() {
   vkDestroyCommandPool(device_.handle(), pool_, nullptr);
 }
 
+void Commands::allocate() {
+  VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+  info.commandPool = pool_;
+  info.commandBufferCount = 1;
+  check(vkAllocateCommandBuffers(device_.handle(), &info, &buffer_), "vkAllocateCommandBuffers");
+}
+
 void Commands::begin() {
   if (recording_) return;
-  check(vkResetCommandPool(device_.handle(), pool_, 0), "vkResetCommandPool");
+  if (in_flight_.empty()) check(vkResetCommandPool(device_.handle(), pool_, 0), "vkResetCommandPool");
   VkCommandBufferBeginInfo begin_info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
   begin_info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   check(vkBeginCommandBuffer(buffer_, &begin_info), "vkBeginCommandBuffer");
-  timed_.clear();
   recording_ = true;
 }
 
@@ -133,16 +136,31 @@ void Commands::copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64
   barrier();
 }
 
-void Commands::submit_and_wait() {
-  if (!recording_) return;
+void Commands::end_and_submit(VkFence fence) {
   recording_ = false;
   check(vkEndCommandBuffer(buffer_), "vkEndCommandBuffer");
-  check(vkResetFences(device_.handle(), 1, &fence_), "vkResetFences");
   VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
   submit.commandBufferCount = 1;
   submit.pCommandBuffers = &buffer_;
-  check(vkQueueSubmit(device_.queue(), 1, &submit, fence_), "vkQueueSubmit");
+  check(vkQueueSubmit(device_.queue(), 1, &submit, fence), "vkQueueSubmit");
+}
+
+void Commands::submit() {
+  if (!recording_) return;
+  end_and_submit(VK_NULL_HANDLE);
+  in_flight_.push_back(buffer_);
+  allocate();
+}
+
+void Commands::submit_and_wait() {
+  if (!recording_ && in_flight_.empty()) return;
+  begin();
+  check(vkResetFences(device_.handle(), 1, &fence_), "vkResetFences");
+  end_and_submit(fence_);
   check(vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, ~0ull), "vkWaitForFences");
+  if (!in_flight_.empty())
+    vkFreeCommandBuffers(device_.handle(), pool_, static_cast<uint32_t>(in_flight_.size()), in_flight_.data());
+  in_flight_.clear();
   collect_times();
 }
 

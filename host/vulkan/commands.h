@@ -32,7 +32,9 @@ class Commands {
   void copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t from_offset = 0,
             uint64_t to_offset = 0);
 
-  /// Runs what was recorded since the last call and waits for it. Throws RenderError
+  /// Runs what was recorded since the last call, while the caller goes on.
+  void submit();
+  /// Runs what was recorded since the last call and waits for it, and for all before. Throws RenderError
   /// (VK_ERROR_DEVICE_LOST...).
   void submit_and_wait();
 
@@ -43,6 +45,8 @@ class Commands {
  private:
   void begin();
   void destroy();
+  void allocate();
+  void end_and_submit(VkFence fence);
   void barrier();
   void write_timestamp(VkPipelineStageFlagBits stage, uint32_t query);
   uint32_t begin_timing(const Kernel& kernel);
@@ -54,6 +58,7 @@ class Commands {
   bool recording_ = false;
   VkCommandPool pool_ = VK_NULL_HANDLE;
   VkCommandBuffer buffer_ = VK_NULL_HANDLE;
+  std::vector<VkCommandBuffer> in_flight_;  // of submit()
   VkFence fence_ = VK_NULL_HANDLE;
   std::vector<VkQueryPool> queries_;  // pools of a fixed size; grows with the dispatches of one submission
   std::vector<std::string> timed_;    // kernel name of each pair of queries in flight

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,6 +22,23 @@ struct Kernels {
   std::vector<std::string> run, skipped;  // stages, for people
 };
 
+/// What kernels are made of. All samples of a pixel lie below `end_sample`. made: is told of each as soon as it is there.
+struct KernelSource {
+  vulkan::Device& device;
+  const vulkan::BindingTable& table;
+  const FeatureSet& features;
+  const RenderOptions& options;
+  uint64_t end_sample;
+  std::function<void(const vulkan::Kernel&)> made;
+};
+
+/// The one kernel for whole paths.
+Kernels build_fused_kernel(const KernelSource& source, const BakedGeometry& baked);
+/// The stages; may_guide: but those of surfaces that can_be_guided(), for build_surface_kernels().
+Kernels build_stages(const KernelSource& source, bool may_guide);
+/// The stages that build_stages() has left out.
+void build_surface_kernels(const KernelSource& source, bool guided, Kernels& kernels);
+
 /// What traces photons, beside stages that it shares with paths.
 struct PhotonKernels {
   Kernels::Pointer init_from_lights;
@@ -28,14 +46,6 @@ struct PhotonKernels {
   std::vector<std::string> names;
 };
 /// Of scenes that may_be_guided().
-PhotonKernels build_photon_kernels(vulkan::Device& device, const vulkan::BindingTable& table,
-                                   const FeatureSet& features, const RenderOptions& options, uint64_t end_sample);
-/// Replaces the kernels of classes that can_be_guided() by those that are.
-void guide_kernels(vulkan::Device& device, const vulkan::BindingTable& table, const FeatureSet& features,
-                   const RenderOptions& options, uint64_t end_sample, Kernels& kernels);
-
-/// The stages, or with `baked` the one kernel for whole paths. All samples of a pixel lie below `end_sample`.
-Kernels build_kernels(vulkan::Device& device, const vulkan::BindingTable& table, const FeatureSet& features,
-                      const RenderOptions& options, uint64_t end_sample, const BakedGeometry* baked);
+PhotonKernels build_photon_kernels(const KernelSource& source);
 
 }  // namespace tachylite

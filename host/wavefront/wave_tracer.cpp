@@ -91,18 +91,19 @@ WaveTracer::WaveTracer(vulkan::Device& device, const PackedScene& scene, const R
   upload_seconds_ = upload_timer.seconds();
 
   const Timer compile_timer;
-  const BakedGeometry* baked = plan_.baked ? &*plan_.baked : nullptr;
-  kernels_ = build_kernels(device_, *table_, features_, options, params_.end_sample, baked);
+  // Drivers compile a kernel when it is first dispatched: that goes on while the next is made.
+  const KernelSource source{device_, *table_, features_, options, params_.end_sample,
+                            [this](const vulkan::Kernel& kernel) { touch(kernel); }};
+  kernels_ = plan_.baked ? build_fused_kernel(source, *plan_.baked) : build_stages(source, plan_.may_guide);
   if (plan_.may_guide) {
-    const std::vector<glm::uvec2> guide = learn_guide(options);
-    if (!guide.empty()) {
+    const std::vector<glm::uvec2> guide = learn_guide(source);
+    if (!guide.empty())
       guide_->upload(guide.data(), guide.size() * sizeof(guide[0]));
-      guide_kernels(device_, *table_, features_, options, params_.end_sample, kernels_);
-    } else {
+    else
       kernels_.skipped.push_back("guide");
-    }
+    build_surface_kernels(source, !guide.empty(), kernels_);
   }
-  warm_up();
+  commands_.submit_and_wait();
   commands_.set_timing(options.timing);
   compile_seconds_ = compile_timer.seconds() - guide_seconds_;
 }
@@ -134,23 +135,11 @@ void WaveTracer::upload(const RenderOptions& options) {
   table_ = std::make_unique<vulkan::BindingTable>(device_, bindings, sizeof(WaveParams));
 }
 
-// Drivers compile a kernel when it is first dispatched: do that now, with nothing to do.
-void WaveTracer::touch(const Kernels::Pointer& kernel, uint32_t mode) {
-  WaveParams wave{};
-  wave.mode = mode;
-  if (kernel) commands_.dispatch(*kernel, 1, &wave, sizeof(wave));
-}
-
-void WaveTracer::warm_up() {
-  const Kernels& k = kernels_;
-  touch(k.prepare_dispatch, gpu::kPrepareTrace);
-  for (const Kernels::Pointer* kernel :
-       {&k.init_from_camera, &k.intersect_primary, &k.intersect_closest, &k.intersect_shadow, &k.sample_medium,
-        &k.shade_segment, &k.shade_medium, &k.shade_emitter, &k.shade_escaped, &k.write_film, &k.write_aov,
-        &k.write_moment, &k.follow_paths})
-    touch(*kernel);
-  for (const Kernels::Pointer& kernel : k.shade_surface) touch(kernel);
-  commands_.submit_and_wait();
+// Runs a kernel where it has nothing to do.
+void WaveTracer::touch(const vulkan::Kernel& kernel) {
+  const WaveParams wave{};
+  commands_.dispatch(kernel, 1, &wave, sizeof(wave));
+  commands_.submit();
 }
 
 // Number of bounces (rays of a path) that can still contribute.
@@ -208,22 +197,18 @@ void WaveTracer::record_bounce(WaveParams& wave) {
   dispatch_queue(k.intersect_shadow, gpu::kDispatchShadow, wave);
 }
 
-std::vector<glm::uvec2> WaveTracer::learn_guide(const RenderOptions& options) {
-  const PhotonKernels photon_kernels = build_photon_kernels(device_, *table_, features_, options, params_.end_sample);
+std::vector<glm::uvec2> WaveTracer::learn_guide(const KernelSource& source) {
+  const PhotonKernels photon_kernels = build_photon_kernels(source);
   kernels_.run.insert(kernels_.run.end(), photon_kernels.names.begin(), photon_kernels.names.end());
   // On surfaces that are not guided photons scatter as paths do; their shadow rays are not traced.
   const auto scatter = [&](size_t c) -> const Kernels::Pointer& {
     return photon_kernels.scatter_photons[c] ? photon_kernels.scatter_photons[c] : kernels_.shade_surface[c];
   };
   const size_t classes = kernels_.shade_surface.size();
-  touch(kernels_.prepare_dispatch, gpu::kPrepareTrace);
-  touch(photon_kernels.init_from_lights);
-  touch(kernels_.intersect_closest);
-  for (size_t c = 0; c < classes; ++c) touch(scatter(c));
   commands_.submit_and_wait();
 
   const Timer timer;
-  commands_.set_timing(options.timing);
+  commands_.set_timing(source.options.timing);
   commands_.fill(*photons_, 0);
   WaveParams wave{};
   wave.photons = 1;
@@ -246,10 +231,9 @@ std::vector<glm::uvec2> WaveTracer::learn_guide(const RenderOptions& options) {
   }
   commands_.set_timing(false);
   const std::vector<uint32_t> flux = photons_->download_all<uint32_t>();
-  auto* words = static_cast<uint32_t*>(counters_->mapped());
-  words[gpu::kCounterShadowTotal] = 0;  // of photons they were queued only
+  const auto* words = static_cast<const uint32_t*>(counters_->mapped());
   std::vector<glm::uvec2> guide;
-  if (options.guiding == Guiding::kOn || guide_pays(flux, words[gpu::kCounterCaustics])) guide = build_guide(flux);
+  if (source.options.guiding == Guiding::kOn || guide_pays(flux, words[gpu::kCounterCaustics])) guide = build_guide(flux);
   guide_seconds_ = timer.seconds();
   return guide;
 }

@@ -48,4 +48,7 @@ bool has_area_light() {
          has_light(kLightCylinder);
 }
 
+// Whether some stage samples lights; next-event estimation may still be no use to a kernel's own class.
+bool has_shadow_rays() { return light_selection != kSelectNone && strategy != kStrategyBsdf; }
+
 #endif

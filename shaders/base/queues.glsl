@@ -1,5 +1,4 @@
-// Path state and queues as kernels use them: reads through texel buffers, writes through storage buffers, appends
-// aggregated over the subgroup (one atomic an append).
+// Path state and queues as kernels use them: reads through texel buffers, writes through storage buffers.
 #ifndef TACHYLITE_BASE_QUEUES_GLSL
 #define TACHYLITE_BASE_QUEUES_GLSL
 #extension GL_KHR_shader_subgroup_basic : require
@@ -30,33 +29,25 @@ void store_path(uint row, uint slot, vec4 value) { path_rows[row * params.capaci
 
 uint load_queue(uint queue, uint i) { return texelFetch(queue_texels, int(queue * params.capacity + i)).x; }
 uint queue_length(uint queue) { return counters[kCounterQueue + queue]; }
+void store_queue(uint queue, uint i, uint slot) { queue_entries[queue * params.capacity + i] = slot; }
+uint place_of(uint queue, uint i) { return counters[kCounterPlace + queue] + i; }
 
 vec4 load_shadow(uint row, uint i) { return texelFetch(shadow_texels, int(row * params.capacity + i)); }
 
-// Reserves a place for each lane with `wanted`; meaningless for the others. The places of a subgroup are in order
-// of its lanes, so that neighbouring paths stay neighbours.
-uint append(uint counter, bool wanted) {
+// One atomic a subgroup. Its entries are in order of its lanes, so that neighbouring paths stay neighbours.
+void append_to_queue(uint queue, bool wanted, uint slot) {
   uvec4 ballot = subgroupBallot(wanted);
   uint count = subgroupBallotBitCount(ballot);
   uint base = 0u;
-  if (subgroupElect() && count > 0u) base = atomicAdd(counters[counter], count);
-  return subgroupBroadcastFirst(base) + subgroupBallotExclusiveBitCount(ballot);
+  if (subgroupElect() && count > 0u) base = atomicAdd(counters[kCounterQueue + queue], count);
+  uint i = subgroupBroadcastFirst(base) + subgroupBallotExclusiveBitCount(ballot);
+  if (wanted) store_queue(queue, i, slot);
 }
 
-void append_to_queue(uint queue, bool wanted, uint slot) {
-  uint place = append(kCounterQueue + queue, wanted);
-  if (wanted) queue_entries[queue * params.capacity + place] = slot;
-}
-
-// Its place, for what else a kernel has to say of it.
-uint append_shadow_ray(bool wanted, vec3 o, uint leaving, vec3 d, uint target, vec3 contribution, uint slot) {
-  uint place = append(kCounterShadow, wanted);
-  if (wanted) {
-    shadow_rows[place] = vec4(o, uintBitsToFloat(leaving));
-    shadow_rows[params.capacity + place] = vec4(d, uintBitsToFloat(target));
-    shadow_rows[2u * params.capacity + place] = vec4(contribution, uintBitsToFloat(slot));
-  }
-  return place;
+void store_shadow_ray(uint place, vec3 o, uint leaving, vec3 d, uint target, vec3 contribution, uint slot) {
+  shadow_rows[place] = vec4(o, uintBitsToFloat(leaving));
+  shadow_rows[params.capacity + place] = vec4(d, uintBitsToFloat(target));
+  shadow_rows[2u * params.capacity + place] = vec4(contribution, uintBitsToFloat(slot));
 }
 
 // Adds to the radiance of a path; what is not finite is dropped and counted. Only one lane at a time owns a path.
@@ -74,14 +65,10 @@ void report_unfinished(bool unfinished) {
   if (unfinished) atomicAdd(counters[kCounterUnfinished], 1u);
 }
 
-// Adds counts of a lane to those of the wave.
-void count_rays(uint closest, uint shadow, uint nonfinite) {
-  uint closest_sum = subgroupAdd(closest), shadow_sum = subgroupAdd(shadow), nonfinite_sum = subgroupAdd(nonfinite);
-  if (subgroupElect()) {
-    atomicAdd(counters[kCounterClosestTotal], closest_sum);
-    atomicAdd(counters[kCounterShadowTotal], shadow_sum);
-    if (nonfinite_sum > 0u) atomicAdd(counters[kCounterNonfinite], nonfinite_sum);
-  }
+// Adds a count of each lane to one of the wave.
+void count_traced(uint counter, uint count) {
+  uint sum = subgroupAdd(count);
+  if (subgroupElect() && sum > 0u) atomicAdd(counters[counter], sum);
 }
 
 // Pixel of the image for a pixel in tile order; false outside.

@@ -1,8 +1,9 @@
 // Traces many rays with few lanes: a lane that has finished its ray takes the next one, so that short rays do not wait
 // for long ones. The kernel defines, before it includes this file (and after geometry/bvh.glsl),
-//   TraceRay fetch_ray(uint i)           ray i of the dispatch
-//   void store_hit(uint i, TraceHit hit)
-// and calls trace_rays from all lanes of workgroups of 64, ceil(count / kRaysPerGroup) of them.
+//   uint ray_at(uint i)                  its name for ray i
+//   TraceRay fetch_ray(uint ray)
+//   void store_hit(uint ray, TraceHit hit)
+// and calls trace_rays from all lanes of workgroups of 64, each subgroup with rays of its own.
 // Aila and Laine 2009, "Understanding the Efficiency of Ray Traversal on GPUs", section 4.
 #ifndef TACHYLITE_GEOMETRY_TRACE_RAYS_GLSL
 #define TACHYLITE_GEOMETRY_TRACE_RAYS_GLSL
@@ -19,17 +20,14 @@ uint count_lanes(bool counts) {
   return n;
 }
 
-// The rays of this subgroup.
+// Where this subgroup's rays begin among those of its workgroup, and how many they are at most.
 uint rays_per_lane() { return kRaysPerGroup / gl_WorkGroupSize.x; }
-uint first_ray() {
-  return gl_WorkGroupID.x * kRaysPerGroup + gl_SubgroupID * rays_per_lane() * gl_SubgroupSize;
-}
+uint rays_per_subgroup() { return rays_per_lane() * gl_SubgroupSize; }
+uint first_ray_in_group() { return gl_SubgroupID * rays_per_subgroup(); }
 
-// Rays 0 .. count - 1. All loops end for a whole subgroup at once, and what lives on is carried by them
+// Rays next .. end - 1. All loops end for a whole subgroup at once, and what lives on is carried by them
 // (Mesa 22.3.6 confuses values that leave a divergent loop).
-void trace_rays(uint count, const bool any) {
-  uint next = first_ray();
-  uint end = min(next + rays_per_lane() * gl_SubgroupSize, count);
+void trace_rays(uint next, uint end, const bool any) {
   Traversal s = begin_traversal(TraceRay(vec3(0.0), vec3(1.0), 0.0, kNoHit, kNoHit));
   s.group = 0u;
   uint ray = kNoHit;
@@ -39,8 +37,11 @@ void trace_rays(uint count, const bool any) {
     uint rank = subgroupBallotExclusiveBitCount(subgroupBallot(idle));
     if (idle) {
       if (ray != kNoHit) store_hit(ray, s.hit);
-      ray = next + rank < end ? next + rank : kNoHit;
-      if (ray != kNoHit) s = begin_traversal(fetch_ray(ray));
+      ray = kNoHit;
+      if (next + rank < end) {
+        ray = ray_at(next + rank);
+        s = begin_traversal(fetch_ray(ray));
+      }
     }
     next += idle_lanes;
     // While there are rays to take, a quarter of the lanes may wait for them.

@@ -133,5 +133,7 @@ void main() {
     }
   }
   report_unfinished(going);
-  count_rays(closest_rays, shadow_rays, nonfinite);
+  count_traced(kCounterClosestTotal, closest_rays);
+  count_traced(kCounterShadowTotal, shadow_rays);
+  count_traced(kCounterNonfinite, nonfinite);
 }

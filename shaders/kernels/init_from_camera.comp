@@ -11,8 +11,8 @@ void main() {
   uvec2 pixel = uvec2(0u);
   bool owned = slot < wave.pixel_count * wave.block_count * kBlockSamples;
   bool inside = owned && slot_sample(slot) < params.end_sample && pixel_of(slot_tile_pixel(slot), pixel);
-  append_to_queue(kQueueRays0, inside, slot);
   if (!owned) return;
+  store_queue(kQueueRays0, slot, inside ? slot : kNoPath);
   store_path(kPathRadiance, slot, vec4(0.0));
   if (!inside) return;
 

@@ -21,8 +21,8 @@ uint choose_emitter(float u) {
 void main() {
   uint slot = gl_GlobalInvocationID.x;
   bool owned = slot < wave.pixel_count * wave.block_count * kBlockSamples;
-  append_to_queue(kQueueRays0, owned, slot);
   if (!owned) return;
+  store_queue(kQueueRays0, slot, slot);
 
   uvec2 pixel;
   pixel_of(slot_tile_pixel(slot), pixel);

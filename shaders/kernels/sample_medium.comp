@@ -13,8 +13,8 @@ layout(set = 0, binding = kBindLeafInfo) uniform usamplerBuffer leaf_info;
 
 void main() {
   uint i = gl_GlobalInvocationID.x;
-  if (i >= queue_length(wave.ray_queue)) return;
-  uint slot = load_queue(wave.ray_queue, i);
+  uint slot = i < queue_length(wave.ray_queue) ? load_queue(wave.ray_queue, i) : kNoPath;
+  if (slot == kNoPath) return;
   vec3 o = load_path(kPathOrigin, slot).xyz, d = load_path(kPathDirection, slot).xyz;
   vec4 beta = load_path(kPathBeta, slot), hit = load_path(kPathHit, slot);
   VolumePath path = load_volume_path(slot);

@@ -13,12 +13,13 @@ layout(local_size_x = 64) in;
 // shade_segment samples lights without extent in homogeneous media.
 bool samples_lights_here() {
   bool others = has_area_light() || has_escaped_light() || has_light(kLightDirectional) || has_medium(kMediaGrids);
-  return light_selection != kSelectNone && strategy != kStrategyBsdf && (others || !has_medium(kMediaSegments));
+  return has_shadow_rays() && (others || !has_medium(kMediaSegments));
 }
 
 void main() {
   uint i = gl_GlobalInvocationID.x;
   bool live = i < queue_length(kQueueSurface + class_count);
+  uint place = place_of(kQueueSurface + class_count, i);
   uint slot = live ? load_queue(kQueueSurface + class_count, i) : 0u;
   vec3 d = load_path(kPathDirection, slot).xyz;
   vec3 p = load_path(kPathOrigin, slot).xyz + load_path(kPathHit, slot).w * d;
@@ -33,21 +34,24 @@ void main() {
   uint vertex = path.edges - 1u;
 
   float selection_key = 0.0;
+  bool lit = false;
   if (samples_lights_here()) {
     vec2 u = light_point_sample(path_sampler, vertex);
     LightSample light = sample_light(p, vec3(0.0), u, choices.x, selection_key);
     float pdf = eval_phase(phase, d, light.wi);
     float weight = light.delta || strategy == kStrategyEmitter ? 1.0 : mis_weight(light.pdf, pdf);
     vec3 contribution = beta.xyz * pdf * light.radiance * (weight / light.pdf);
-    bool wanted = live && light.pdf > 0.0 && contribution != vec3(0.0);
-    if (has_medium(kMediaSegments)) wanted = wanted && !(light.target == kTargetPoint && !is_grid(load_medium(row)));
-    if (wanted && !is_finite(contribution)) {
+    lit = live && light.pdf > 0.0 && contribution != vec3(0.0);
+    if (has_medium(kMediaSegments)) lit = lit && !(light.target == kTargetPoint && !is_grid(load_medium(row)));
+    if (lit && !is_finite(contribution)) {
       atomicAdd(counters[kCounterNonfinite], 1u);
-      wanted = false;
+      lit = false;
     }
-    append_volume_shadow_ray(wanted, p, kNoHit, light.target == kTargetInfinite ? light.wi : light.to_light,
-                             light.target, contribution, slot, path.medium);
+    if (lit)
+      store_volume_shadow_ray(place, p, kNoHit, light.target == kTargetInfinite ? light.wi : light.to_light,
+                              light.target, contribution, slot, path.medium);
   }
+  if (has_shadow_rays() && live) store_queue(kQueueShadow, place, lit ? slot : kNoPath);
 
   vec3 wi = sample_phase(phase, d, direction_sample(path_sampler, vertex).xy, choices.y);
   bool alive = live && goes_on(path.edges);
@@ -56,7 +60,7 @@ void main() {
     alive = alive && choices.z < q;
     beta.xyz /= q;
   }
-  append_to_queue(1u - wave.ray_queue, alive, slot);
+  if (live) store_queue(1u - wave.ray_queue, place, alive ? slot : kNoPath);
   if (alive) {
     store_path(kPathOrigin, slot, vec4(p, uintBitsToFloat(kNoHit)));
     store_path(kPathDirection, slot, vec4(wi, eval_phase(phase, d, wi)));

@@ -12,8 +12,10 @@ layout(local_size_x = 64) in;
 
 void main() {
   uint i = gl_GlobalInvocationID.x;
-  bool live = i < queue_length(wave.ray_queue);
-  uint slot = live ? load_queue(wave.ray_queue, i) : 0u;
+  bool owned = i < queue_length(wave.ray_queue);
+  uint slot = owned ? load_queue(wave.ray_queue, i) : kNoPath;
+  bool live = slot != kNoPath;
+  slot = live ? slot : 0u;
   vec3 o = load_path(kPathOrigin, slot).xyz, d = load_path(kPathDirection, slot).xyz;
   vec3 beta = load_path(kPathBeta, slot).xyz;
   float tmax = load_path(kPathHit, slot).w;
@@ -40,6 +42,8 @@ void main() {
     atomicAdd(counters[kCounterNonfinite], 1u);
     wanted = false;
   }
-  append_volume_shadow_ray(wanted, o + segment.t * d, kNoHit, segment.to_light, kTargetPoint, contribution, slot,
-                           path.medium);
+  if (wanted)
+    store_volume_shadow_ray(i, o + segment.t * d, kNoHit, segment.to_light, kTargetPoint, contribution, slot,
+                            path.medium);
+  if (owned) store_queue(kQueueShadow, i, wanted ? slot : kNoPath);
 }

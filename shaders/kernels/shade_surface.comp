@@ -10,6 +10,7 @@ layout(local_size_x = 64) in;
 void main() {
   uint i = gl_GlobalInvocationID.x;
   bool live = i < queue_length(kQueueSurface + material_class);
+  uint place = place_of(kQueueSurface + material_class, i);
   uint slot = live ? load_queue(kQueueSurface + material_class, i) : 0u;
   vec4 direction = load_path(kPathDirection, slot);
   vec3 d = direction.xyz;
@@ -32,28 +33,31 @@ void main() {
                    (beta.x + beta.y + beta.z) * (1.0 / 3.0), direction.w == 0.0 || direction.w > kFocusedPdf);)
 
   float selection_key = 0.0;
+  bool lit = false;
   if (samples_lights(is_volumetric() ? 1u : edges)) {
     vec2 u = light_point_sample(path_sampler, edges - 1u);
     ShadowRay ray = sample_direct_light(it, -d, bsdf, beta.xyz, u, choices.x, selection_key);
-    bool wanted = live && ray.wanted && samples_lights(edges);
-    if (wanted && !is_finite(ray.contribution)) {
+    lit = live && ray.wanted && samples_lights(edges);
+    if (lit && !is_finite(ray.contribution)) {
       atomicAdd(counters[kCounterNonfinite], 1u);
-      wanted = false;
+      lit = false;
     }
-    append_volume_shadow_ray(wanted, ray.o, floatBitsToUint(hit.x), ray.d, ray.target, ray.contribution, slot,
-                             medium_behind(shape, it.n_g, ray.d, path.medium));
+    if (lit)
+      store_volume_shadow_ray(place, ray.o, floatBitsToUint(hit.x), ray.d, ray.target, ray.contribution, slot,
+                              medium_behind(shape, it.n_g, ray.d, path.medium));
   }
+  if (has_shadow_rays() && live) store_queue(kQueueShadow, place, lit ? slot : kNoPath);
 
+  bool alive = false;
   if (is_volumetric() || goes_on(edges)) {
     vec2 u = direction_sample(path_sampler, edges - 1u).xy;
     NextRay ray = sample_next_ray(it, -d, bsdf, beta, edges, u, choices.y, choices.z);
     bool passes = is_volumetric() && ray.is_null;  // the edge goes on
-    bool alive = live && ray.alive && (passes || goes_on(edges));
+    alive = live && ray.alive && (passes || goes_on(edges));
     if (alive && !is_finite(ray.beta.xyz)) {
       atomicAdd(counters[kCounterNonfinite], 1u);
       alive = false;
     }
-    append_to_queue(1u - wave.ray_queue, alive, slot);
     if (alive) {
       store_path(kPathOrigin, slot, vec4(ray.o, hit.x));
       store_path(kPathDirection, slot, vec4(ray.d, passes ? direction.w : ray.pdf));
@@ -64,4 +68,5 @@ void main() {
         store_path(kPathRadiance, slot, vec4(load_path(kPathRadiance, slot).xyz, selection_key));
     }
   }
+  if (live) store_queue(1u - wave.ray_queue, place, alive ? slot : kNoPath);
 }

@@ -25,11 +25,10 @@ void store_volume_path(uint slot, VolumePath path) {
 }
 
 // A shadow ray that begins in a medium.
-void append_volume_shadow_ray(bool wanted, vec3 o, uint leaving, vec3 d, uint target, vec3 contribution, uint slot,
-                              uint medium) {
-  uint place = append_shadow_ray(wanted, o, leaving, d, target, contribution, slot);
-  if (is_volumetric() && wanted)
-    shadow_rows[3u * params.capacity + place] = vec4(uintBitsToFloat(medium), 0.0, 0.0, 0.0);
+void store_volume_shadow_ray(uint place, vec3 o, uint leaving, vec3 d, uint target, vec3 contribution, uint slot,
+                             uint medium) {
+  store_shadow_ray(place, o, leaving, d, target, contribution, slot);
+  if (is_volumetric()) shadow_rows[3u * params.capacity + place].x = uintBitsToFloat(medium);
 }
 
 #endif

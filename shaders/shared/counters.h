@@ -1,32 +1,37 @@
 // Queue lengths, indirect dispatch arguments and counts of a wave, as words of kBindCounters. The queues themselves
 // lie in kBindQueues: queue q begins at q * capacity.
+//
+// Only tracing and sample_medium append to queues, with an atomic each. What shading makes of an entry, the next ray and
+// the shadow ray, has a place that follows from the entry's, so that shading has no atomics, which are slow where many
+// cores want the same: entry i of queue q fills place kCounterPlace[q] + i, with kNoPath where there is no ray.
 #ifndef TACHYLITE_SHARED_COUNTERS_H
 #define TACHYLITE_SHARED_COUNTERS_H
 #include "interop.h"
 TACHYLITE_SHARED_BEGIN
 
 // Queues of path slots.
-TACHYLITE_CONST uint kQueueRays0 = 0u;     // rays of even bounces
-TACHYLITE_CONST uint kQueueRays1 = 1u;     // rays of odd bounces
-TACHYLITE_CONST uint kQueueEmitter = 2u;   // hits on area lights
-TACHYLITE_CONST uint kQueueEscaped = 3u;   // rays that left the scene, if it has an environment
-TACHYLITE_CONST uint kQueueSurface = 4u;   // first of one queue a material class
+TACHYLITE_CONST uint kQueueRays0 = 0u;     // rays of even bounces; kNoPath in unused places
+TACHYLITE_CONST uint kQueueRays1 = 1u;     // rays of odd bounces; the same
+TACHYLITE_CONST uint kQueueShadow = 2u;    // shadow rays; the same
+TACHYLITE_CONST uint kQueueEmitter = 3u;   // hits on area lights
+TACHYLITE_CONST uint kQueueEscaped = 4u;   // rays that left the scene, if it has an environment
+TACHYLITE_CONST uint kQueueSurface = 5u;   // first of one queue a material class
 TACHYLITE_CONST uint kMaxClasses = 255u;    // as many as an entry of 8 bits tells apart (kClassNone)
 // After them, at kQueueSurface + number of classes: collisions in media, where there are any.
 TACHYLITE_CONST uint kMaxQueues = kQueueSurface + kMaxClasses + 1u;
+TACHYLITE_CONST uint kNoPath = 0xffffffffu;
 
 // Words of the counters buffer.
-TACHYLITE_CONST uint kCounterQueue = 0u;                        // length of each queue
-TACHYLITE_CONST uint kCounterShadow = kMaxQueues;               // shadow rays that stages have queued
-TACHYLITE_CONST uint kCounterClosestTotal = kMaxQueues + 1u;    // rays traced since the host last reset them
-TACHYLITE_CONST uint kCounterShadowTotal = kMaxQueues + 2u;
-TACHYLITE_CONST uint kCounterNonfinite = kMaxQueues + 3u;       // contributions dropped: NaN or infinite
-TACHYLITE_CONST uint kCounterOverflow = kMaxQueues + 4u;        // stacks or queues that were full
-TACHYLITE_CONST uint kCounterShadowRays = kMaxQueues + 5u;      // shadow rays to trace, of those that were queued
-TACHYLITE_CONST uint kCounterUnfinished = kMaxQueues + 6u;      // lanes whose loops the driver has ended too early
-TACHYLITE_CONST uint kCounterCaustics = kMaxQueues + 7u;        // flux of photons on guided surfaces straight from a
+TACHYLITE_CONST uint kCounterQueue = 0u;                        // length of each queue, or its number of places
+TACHYLITE_CONST uint kCounterPlace = kMaxQueues;                // first place of each queue that is shaded
+TACHYLITE_CONST uint kCounterClosestTotal = 2u * kMaxQueues;    // rays traced since the host last reset them
+TACHYLITE_CONST uint kCounterShadowTotal = 2u * kMaxQueues + 1u;
+TACHYLITE_CONST uint kCounterNonfinite = 2u * kMaxQueues + 2u;  // contributions dropped: NaN or infinite
+TACHYLITE_CONST uint kCounterOverflow = 2u * kMaxQueues + 3u;   // stacks or queues that were full
+TACHYLITE_CONST uint kCounterUnfinished = 2u * kMaxQueues + 4u; // lanes whose loops the driver has ended too early
+TACHYLITE_CONST uint kCounterCaustics = 2u * kMaxQueues + 5u;   // flux of photons on guided surfaces straight from a
                                                                // focused lobe, in units of 1 / kCausticUnit (shared/guide.h)
-TACHYLITE_CONST uint kCounterArguments = kMaxQueues + 8u;       // (x, y, z) of each dispatch below, 4 words apart
+TACHYLITE_CONST uint kCounterArguments = 2u * kMaxQueues + 6u;       // (x, y, z) of each dispatch below, 4 words apart
 
 // Indirect dispatches.
 TACHYLITE_CONST uint kDispatchClosest = 0u;

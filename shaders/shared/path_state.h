@@ -19,7 +19,8 @@ TACHYLITE_CONST uint kPathMedium = 5u;      // media or null surfaces only (medi
                                             // edges; distance from the last vertex that is not null to o; unused
 TACHYLITE_CONST uint kPathRowsMedia = 6u;
 
-// A shadow ray: kShadowRows rows of vec4 in a compact array (element r * capacity + i of kBindShadow).
+// A shadow ray: kShadowRows rows of vec4 at its place (element r * capacity + place of kBindShadow), where there is one
+// (kQueueShadow).
 //   row 0: o.xyz; bits of the hit that the ray leaves (ignored by the test)
 //   row 1: d.xyz, not normalised: the light is at o + d; bits of the hit on the light (ignored by the test), or
 //          kTargetPoint (nothing to ignore, tmax = 1), or kTargetInfinite (tmax = infinity)

@@ -15,6 +15,7 @@ const bool any_hit = true;
 const bool any_hit = false;
 #endif
 
+uint ray_at(uint i) { return i; }
 TraceRay fetch_ray(uint i) {
   vec4 o = texelFetch(rays, int(2u * i)), d = texelFetch(rays, int(2u * i + 1u));
   return TraceRay(o.xyz, d.xyz, o.w, floatBitsToUint(d.w), kNoHit);
@@ -28,5 +29,8 @@ void main() {
 }
 #else
 #include "geometry/trace_rays.glsl"
-void main() { trace_rays(count, any_hit); }
+void main() {
+  uint first = gl_WorkGroupID.x * kRaysPerGroup + first_ray_in_group();
+  trace_rays(first, min(first + rays_per_subgroup(), count), any_hit);
+}
 #endif

@@ -16,12 +16,13 @@ namespace {
 // One word each: lengths of queues, counts, three arguments of each dispatch, in that order; the last queue is that of
 // collisions in media.
 static_assert(gpu::kQueueSurface > gpu::kQueueEscaped && gpu::kQueueEscaped > gpu::kQueueEmitter &&
-              gpu::kQueueEmitter > gpu::kQueueRays1 && gpu::kQueueRays1 > gpu::kQueueRays0);
+              gpu::kQueueEmitter > gpu::kQueueShadow && gpu::kQueueShadow > gpu::kQueueRays1 &&
+              gpu::kQueueRays1 > gpu::kQueueRays0);
 static_assert(gpu::kQueueSurface + gpu::kMaxClasses < gpu::kMaxQueues);
-static_assert(gpu::kCounterShadow >= gpu::kCounterQueue + gpu::kMaxQueues);
-static_assert(gpu::kCounterShadow < gpu::kCounterClosestTotal && gpu::kCounterClosestTotal < gpu::kCounterShadowTotal &&
+static_assert(gpu::kCounterPlace >= gpu::kCounterQueue + gpu::kMaxQueues);
+static_assert(gpu::kCounterPlace + gpu::kMaxQueues <= gpu::kCounterClosestTotal && gpu::kCounterClosestTotal < gpu::kCounterShadowTotal &&
               gpu::kCounterShadowTotal < gpu::kCounterNonfinite && gpu::kCounterNonfinite < gpu::kCounterOverflow &&
-              gpu::kCounterOverflow < gpu::kCounterShadowRays && gpu::kCounterShadowRays < gpu::kCounterUnfinished &&
+              gpu::kCounterOverflow < gpu::kCounterUnfinished &&
               gpu::kCounterUnfinished < gpu::kCounterArguments);
 static_assert(gpu::kDispatchClosest < gpu::kDispatchShadow && gpu::kDispatchShadow < gpu::kDispatchQueue);
 static_assert(gpu::kCounterArguments + 4 * (gpu::kDispatchQueue + gpu::kMaxQueues) <= gpu::kCounterWords);

@@ -1,0 +1,42 @@
+// The rays that a subgroup of a trace kernel takes: the places of a queue that have one (shared/counters.h), put side by
+// side in shared memory. Before it includes this file the kernel includes geometry/trace_settings.glsl.
+#ifndef TACHYLITE_PATH_LISTED_RAYS_GLSL
+#define TACHYLITE_PATH_LISTED_RAYS_GLSL
+#extension GL_KHR_shader_subgroup_shuffle : require
+#include "base/queues.glsl"
+#include "geometry/trace_settings.glsl"
+
+shared uint listed[kRaysPerGroup];
+uint ray_at(uint i) { return listed[i]; }
+
+// Places of which each lane has kPlacesPerLane neighbouring ones.
+const uint kPlacesPerLane = kRaysPerGroup / 64u;
+uint first_place(uint first) {
+  return gl_WorkGroupID.x * kRaysPerGroup + first + gl_SubgroupInvocationID * kPlacesPerLane;
+}
+
+struct RayList {
+  uint count;
+  uint mask;  // bit k: whether place first_place + k of the lane has a ray
+};
+
+// Lists the rays of the queue's places that fall to this subgroup, from listed[first] on.
+RayList list_rays(uint queue, uint first) {
+  uint begin = first_place(first), places = queue_length(queue);
+  RayList list = RayList(0u, 0u);
+  for (uint k = 0u; k < kPlacesPerLane; ++k)
+    if (begin + k < places && load_queue(queue, begin + k) != kNoPath) list.mask |= 1u << k;
+  uint rays = bitCount(list.mask), next = first + subgroupExclusiveAdd(rays);
+  list.count = subgroupShuffle(next + rays, gl_SubgroupSize - 1u) - first;
+  for (uint k = 0u; k < kPlacesPerLane; ++k) {
+    if ((list.mask & 1u << k) != 0u) {
+      listed[next] = begin + k;
+      next += 1u;
+    }
+  }
+  subgroupMemoryBarrierShared();
+  subgroupBarrier();
+  return list;
+}
+
+#endif
