@@ -16,7 +16,7 @@ namespace {
 using gpu::kGuideCellBins;
 
 // Of directions that follow the photons where there are many. The rest follow the cosine, so that no weight exceeds
-// 1 / (1 - kGuidedShare) times that of an unguided sample.
+// 1 / (1 - kGuidedShare) times that of an unguided sample by more than rounding of probabilities.
 constexpr double kGuidedShare = 0.85;
 // Mean photons in a cell that count as much as the uniform distribution.
 constexpr double kUniformPhotons = 16;
@@ -24,6 +24,7 @@ constexpr double kUniformPhotons = 16;
 constexpr double kSpread = 0.2;
 constexpr double kCellsAcross = 16;  // the film, at least
 constexpr int kBins = gpu::kGuideBins;
+static_assert(kBins == 1 << gpu::kGuideLevels && (kGuideCellBins - 1) / 3 <= gpu::kGuideDensities);
 
 using Densities = std::array<double, kGuideCellBins>;  // mean 1
 
@@ -44,28 +45,38 @@ Densities spread(std::span<const uint32_t> bins) {
   return mean;
 }
 
-// Vose 1991, "A Linear Algorithm for Generating Random Numbers with a Given Distribution".
-void build_alias_table(const Densities& density, std::span<glm::uvec2> out) {
-  std::array<double, kGuideCellBins> rest = density;
-  std::array<uint32_t, kGuideCellBins> small, large;
-  size_t smalls = 0, larges = 0;
-  for (uint32_t i = 0; i < kGuideCellBins; ++i) (rest[i] < 1 ? small[smalls++] : large[larges++]) = i;
-  const auto put = [&](uint32_t i, double stay, uint32_t other) {
-    const auto threshold = static_cast<uint32_t>(std::clamp(stay * 0x1p24, 1.0, 0x1p24 - 1));
-    out[i] = {threshold << 8 | other, bits(density[i])};
-  };
-  while (smalls > 0 && larges > 0) {
-    const uint32_t s = small[--smalls], l = large[larges - 1];
-    put(s, rest[s], l);
-    rest[l] -= 1 - rest[s];
-    if (rest[l] < 1) {
-      --larges;
-      small[smalls++] = l;
-    }
+double sum_of(const Densities& density, uint32_t x, uint32_t y, uint32_t edge) {
+  double sum = 0;
+  for (uint32_t v = y; v < y + edge; ++v)
+    for (uint32_t u = x; u < x + edge; ++u) sum += density[v * kBins + u];
+  return sum;
+}
+
+// In 2^-16, neither 0 nor 1.
+uint32_t probability(double part, double whole) {
+  return static_cast<uint32_t>(std::clamp(std::round(0x1p16 * part / whole), 1.0, 0x1p16 - 1));
+}
+
+// Writes a node of the quadtree over the bins, all below it, and the density that they make of it; here: its own.
+void build_tree(const Densities& density, uint32_t x, uint32_t y, uint32_t edge, uint32_t node, double here,
+                std::span<glm::uvec2> out) {
+  if (edge == 1) {
+    const uint32_t bin = y * kBins + x;
+    out[gpu::kGuideDensities + bin / 2][static_cast<int>(bin % 2)] = bits(here);
+    return;
   }
-  // What is left over by rounding.
-  for (const uint32_t i : std::span(small.data(), smalls)) put(i, 1, i);
-  for (const uint32_t i : std::span(large.data(), larges)) put(i, 1, i);
+  const uint32_t half = edge / 2;
+  double quadrant[2][2];  // [x][y]
+  for (uint32_t i = 0; i < 2; ++i)
+    for (uint32_t j = 0; j < 2; ++j) quadrant[i][j] = sum_of(density, x + i * half, y + j * half, half);
+  const double left = quadrant[0][0] + quadrant[0][1], right = quadrant[1][0] + quadrant[1][1];
+  const uint32_t p = probability(left, left + right);
+  const uint32_t q[2] = {probability(quadrant[0][0], left), probability(quadrant[1][0], right)};
+  out[node] = {p, q[0] | q[1] << 16};
+  for (uint32_t i = 0; i < 2; ++i)
+    for (uint32_t j = 0; j < 2; ++j)
+      build_tree(density, x + i * half, y + j * half, half, 4 * node + 1 + i + 2 * j,
+                 here * 4 * 0x1p-32 * (i == 0 ? p : 0x10000 - p) * (j == 0 ? q[i] : 0x10000 - q[i]), out);
 }
 
 }  // namespace
@@ -109,17 +120,11 @@ std::vector<glm::uvec2> build_guide(std::span<const uint32_t> flux) {
       const auto bins = flux.subspan(cell * kGuideCellBins, kGuideCellBins);
       double photons = 0;
       for (const uint32_t f : bins) photons += f / gpu::kPhotonUnit;
-      if (photons == 0) {
-        for (uint32_t i = 0; i < kGuideCellBins; ++i)
-          guide[cell * kGuideCellBins + i] = {0xffffff00u | i, bits(1)};
-        continue;
-      }
       Densities density = spread(bins);
-      double sum = 0;
-      for (const double d : density) sum += d;
+      const double sum = sum_of(density, 0, 0, kBins);
       const double share = kGuidedShare * photons / (photons + kUniformPhotons);
-      for (double& d : density) d = 1 - share + share * kGuideCellBins * d / sum;
-      build_alias_table(density, std::span(guide).subspan(cell * kGuideCellBins, kGuideCellBins));
+      for (double& d : density) d = 1 - share + (sum > 0 ? share * kGuideCellBins * d / sum : 0);
+      build_tree(density, 0, 0, kBins, 0, 1, std::span(guide).subspan(cell * kGuideCellBins, kGuideCellBins));
     }
   });
   return guide;

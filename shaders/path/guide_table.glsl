@@ -12,21 +12,34 @@ struct GuidedNumbers {
   float density;  // w.r.t. area of the square
 };
 
-GuidedNumbers guide_numbers(uint cell, vec2 u) {
-  vec2 scaled = float(kGuideBins) * u;
-  uvec2 bin = min(uvec2(scaled), kGuideBins - 1u);
-  vec2 rest = scaled - vec2(bin);
-  uvec2 entry = texelFetch(guide_table, int(cell + kGuideBins * bin.y + bin.x)).xy;
-  float stay = float(entry.x >> 8u) * exp2(-24.0);
-  bool stays = rest.x < stay;
-  rest.x = stays ? rest.x / stay : (rest.x - stay) / (1.0 - stay);
-  rest = clamp(rest, 0.0, 0.999998);  // the sum with a bin is not to be rounded to the next
-  if (!stays) {
-    uint other = entry.x & 0xffu;
-    bin = uvec2(other % kGuideBins, other / kGuideBins);
-    entry = texelFetch(guide_table, int(cell + other)).xy;
+// Halves the square at p: where u lies in its half; p becomes the half's probability.
+bool choose_half(inout float u, inout float p) {
+  bool upper = u >= p;
+  if (upper) {
+    u -= p;
+    p = 1.0 - p;
   }
-  return GuidedNumbers((vec2(bin) + rest) / float(kGuideBins), uintBitsToFloat(entry.y));
+  u /= p;
+  return upper;
+}
+
+GuidedNumbers guide_numbers(uint cell, vec2 u) {
+  uvec2 bin = uvec2(0u);
+  uint node = 0u;
+  float density = 1.0;
+  for (uint level = 0u; level < kGuideLevels; ++level) {
+    uvec2 entry = texelFetch(guide_table, int(cell + node)).xy;
+    vec2 p = vec2(float(entry.x), 0.0) * exp2(-16.0);
+    bool right = choose_half(u.x, p.x);
+    p.y = float(right ? entry.y >> 16u : entry.y & 0xffffu) * exp2(-16.0);
+    bool up = choose_half(u.y, p.y);
+    density *= 4.0 * p.x * p.y;
+    uvec2 quadrant = uvec2(right ? 1u : 0u, up ? 1u : 0u);
+    bin = 2u * bin + quadrant;
+    node = 4u * node + 1u + quadrant.x + 2u * quadrant.y;
+  }
+  u = clamp(u, 0.0, 0.999998);  // the sum with a bin is not to be rounded to the next
+  return GuidedNumbers((vec2(bin) + u) / float(kGuideBins), density);
 }
 
 // The bin of a local direction: sample_cosine_hemisphere undone.
@@ -44,7 +57,9 @@ uint guide_bin(vec3 w) {
 
 // Density of guide_numbers w.r.t. area of the square at those that give the local direction w, above the surface.
 float guide_density(uint cell, vec3 w) {
-  return w.z > 0.0 ? uintBitsToFloat(texelFetch(guide_table, int(cell + guide_bin(w))).y) : 1.0;
+  uint bin = guide_bin(w);
+  uvec2 pair = texelFetch(guide_table, int(cell + kGuideDensities + (bin >> 1u))).xy;
+  return w.z > 0.0 ? uintBitsToFloat((bin & 1u) == 0u ? pair.x : pair.y) : 1.0;
 }
 
 #endif

@@ -7,16 +7,20 @@
 // kGuideBins^2 bins, bin x + kGuideBins * y.
 //
 //   kBindPhotons: uint a bin: flux of the photons there, in units of 1 / kPhotonUnit of the mean photon's.
-//   kBindGuide: uvec2 a bin, an alias table (Walker 1977, "An Efficient Method for Generating Discrete Random
-//     Variables with General Distributions"): x = probability to stay in the bin, in 2^-24 << 8 | the bin to go to
-//     else; y = bits of the density w.r.t. area of the square, mean 1 over a cell.
+//   kBindGuide: kGuideCellBins texels (uvec2) a cell. First the nodes of a quadtree over the square, whose children
+//     (x + 2 y of the quadrant) follow at 4 * node + 1: x = the left half's probability, y = of each half that of its
+//     lower quadrant, the left one's in the low 16 bits; all in 2^-16. Hierarchical sample warping (Clarberg, Jarosz,
+//     Akenine-Moeller and Jensen 2005, "Wavelet Importance Sampling", section 4) keeps stratified numbers stratified.
+//     From texel kGuideDensities on, two bins a texel: bits of the density w.r.t. area of the square, mean 1 over a cell.
 #ifndef TACHYLITE_SHARED_GUIDE_H
 #define TACHYLITE_SHARED_GUIDE_H
 #include "interop.h"
 TACHYLITE_SHARED_BEGIN
 
-TACHYLITE_CONST uint kGuideBins = 16u;
+TACHYLITE_CONST uint kGuideLevels = 4u;
+TACHYLITE_CONST uint kGuideBins = 16u;  // 2^kGuideLevels
 TACHYLITE_CONST uint kGuideCellBins = 256u;  // kGuideBins^2
+TACHYLITE_CONST uint kGuideDensities = 128u;
 TACHYLITE_CONST uint kGuideCells = 8192u;
 TACHYLITE_CONST float kPhotonUnit = 256.0f;
 

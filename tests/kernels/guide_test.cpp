@@ -31,25 +31,35 @@ std::vector<uint32_t> some_photons() {
 }
 
 double density_of(const std::vector<glm::uvec2>& guide, uint32_t cell, uint32_t bin) {
-  return std::bit_cast<float>(guide[cell * kGuideCellBins + bin].y);
+  const glm::uvec2 pair = guide[cell * kGuideCellBins + gpu::kGuideDensities + bin / 2];
+  return std::bit_cast<float>(bin % 2 == 0 ? pair.x : pair.y);
 }
 
-TEST(PhotonGuide, AliasTableHasTheDensity) {
+// Probability of a bin by the nodes on the way to it.
+double probability_of(const std::vector<glm::uvec2>& guide, uint32_t cell, uint32_t bin) {
+  double probability = 1;
+  uint32_t node = 0;
+  for (uint32_t bit = kGuideBins / 2; bit > 0; bit /= 2) {
+    const glm::uvec2 entry = guide[cell * kGuideCellBins + node];
+    const bool right = (bin % kGuideBins & bit) != 0, up = (bin / kGuideBins & bit) != 0;
+    const double left = entry.x / 65536.0, lower = (right ? entry.y >> 16 : entry.y & 0xffff) / 65536.0;
+    probability *= (right ? 1 - left : left) * (up ? 1 - lower : lower);
+    node = 4 * node + 1 + (right ? 1 : 0) + (up ? 2 : 0);
+  }
+  return probability;
+}
+
+TEST(PhotonGuide, TreeHasTheDensity) {
   const std::vector<glm::uvec2> guide = build_guide(some_photons());
   for (uint32_t cell = 0; cell < kGuideCellsTested; ++cell) {
-    std::vector<double> probability(kGuideCellBins, 0.0);
     double sum = 0;
     for (uint32_t b = 0; b < kGuideCellBins; ++b) {
-      const uint32_t word = guide[cell * kGuideCellBins + b].x;
-      const double stay = (word >> 8) * 0x1p-24;
-      probability[b] += stay;
-      probability[word & 0xff] += 1 - stay;
       sum += density_of(guide, cell, b);
-      EXPECT_GE(density_of(guide, cell, b), 0.1499);  // so that no weight exceeds 7 times that of the bsdf
+      EXPECT_GE(density_of(guide, cell, b), 0.145);  // so that no weight exceeds 7 times that of the bsdf
+      EXPECT_NEAR(kGuideCellBins * probability_of(guide, cell, b) / density_of(guide, cell, b), 1, 1e-6)
+          << cell << " " << b;
     }
     EXPECT_NEAR(sum / kGuideCellBins, 1, 1e-6);
-    for (uint32_t b = 0; b < kGuideCellBins; ++b)
-      EXPECT_NEAR(probability[b], density_of(guide, cell, b), 1e-5) << cell << " " << b;
   }
 }
 
@@ -86,7 +96,7 @@ TEST_F(GuideTable, DrawsFromItsDensity) {
       ASSERT_TRUE(s.x >= 0 && s.x < 1 && s.y >= 0 && s.y < 1);
       const auto x = static_cast<uint32_t>(s.x * kFine), y = static_cast<uint32_t>(s.y * kFine);
       observed[y * kFine + x] += 1;
-      ASSERT_EQ(s.z, static_cast<float>(density_of(guide, cell, y / 2 * kGuideBins + x / 2)));
+      ASSERT_NEAR(s.z / density_of(guide, cell, y / 2 * kGuideBins + x / 2), 1, 1e-6);
     }
     const Chi2Result result = chi2_test(observed, expected, kGuideLevel);
     EXPECT_TRUE(result.accepted) << cell << ": " << result.message;
@@ -102,7 +112,7 @@ TEST_F(GuideTable, FindsTheBinOfADirection) {
     for (const glm::vec4& s : run_guide(guide, 3, guided)) {
       const auto x = static_cast<uint32_t>(s.x * kGuideBins), y = static_cast<uint32_t>(s.y * kGuideBins);
       const uint32_t bin = x + kGuideBins * y;
-      wrong += static_cast<uint32_t>(s.w) != bin || s.z != static_cast<float>(density_of(guide, 3, bin));
+      wrong += static_cast<uint32_t>(s.w) != bin || std::abs(s.z / density_of(guide, 3, bin) - 1) > 1e-6;
     }
     EXPECT_LE(wrong, kGuideSamples / 20000);
   }
