@@ -48,6 +48,7 @@ Pipeline::~Pipeline() {
 }
 
 std::shared_ptr<const Pipeline> KeptPipelines::find(const PipelineKey& key) {
+  const std::lock_guard lock(mutex_);
   const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const auto& kept) { return kept.first == key; });
   if (found == kept_.end()) return nullptr;
   std::rotate(kept_.begin(), found, found + 1);
@@ -56,8 +57,14 @@ std::shared_ptr<const Pipeline> KeptPipelines::find(const PipelineKey& key) {
 
 void KeptPipelines::add(PipelineKey key, std::shared_ptr<const Pipeline> pipeline) {
   if (most_ == 0) return;
+  const std::lock_guard lock(mutex_);
   kept_.emplace_front(std::move(key), std::move(pipeline));
   if (kept_.size() > most_) kept_.pop_back();
+}
+
+void KeptPipelines::clear() {
+  const std::lock_guard lock(mutex_);
+  kept_.clear();
 }
 
 }  // namespace tachylite::vulkan

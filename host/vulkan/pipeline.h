@@ -5,6 +5,7 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <utility>
@@ -44,16 +45,17 @@ struct PipelineKey {
   bool operator==(const PipelineKey&) const = default;
 };
 
-/// The pipelines that were used last.
+/// The pipelines that were used last; for several threads.
 class KeptPipelines {
  public:
   explicit KeptPipelines(size_t most) : most_(most) {}
   std::shared_ptr<const Pipeline> find(const PipelineKey& key);
   void add(PipelineKey key, std::shared_ptr<const Pipeline> pipeline);
-  void clear() { kept_.clear(); }
+  void clear();
 
  private:
   size_t most_;
+  std::mutex mutex_;
   std::deque<std::pair<PipelineKey, std::shared_ptr<const Pipeline>>> kept_;  // the one used last is in front
 };
 

@@ -1,8 +1,9 @@
 #include "wavefront/kernels.h"
 
-#include <algorithm>
 #include <bit>
+#include <mutex>
 
+#include "base/parallel.h"
 #include "kernel_spirv.h"
 #include "pack/pack_material.h"
 #include "shared/aov.h"
@@ -13,7 +14,6 @@
 namespace tachylite {
 namespace {
 
-using vulkan::Kernel;
 using vulkan::SpecializationConstants;
 
 // Names of the leaf types of a class, for its kernel's name.
@@ -42,14 +42,40 @@ SpecializationConstants of_render(SpecializationConstants constants, const Kerne
   return constants;
 }
 
-Kernels::Pointer make_kernel(const KernelSource& source, const std::string& name, const std::string& file,
-                             SpecializationConstants constants, std::vector<std::string>& names) {
-  names.push_back(name);
-  auto kernel = std::make_unique<vulkan::Kernel>(source.device, source.table, name, kernel_spirv(file),
-                                                 of_render(std::move(constants), source));
-  source.made(*kernel);
-  return kernel;
-}
+/// Makes kernels on all threads: drivers do half of the work of compiling a pipeline when it is made.
+class KernelBuilder {
+ public:
+  /// names: gets those of the kernels.
+  KernelBuilder(const KernelSource& source, std::vector<std::string>& names) : source_(source), names_(names) {}
+
+  /// `kernel` is there after build().
+  void add(Kernels::Pointer& kernel, const std::string& name, const std::string& file,
+           SpecializationConstants constants) {
+    names_.push_back(name);
+    wanted_.push_back({&kernel, name, kernel_spirv(file), of_render(std::move(constants), source_)});
+  }
+
+  void build() {
+    std::mutex telling;
+    parallel_for_each(wanted_.size(), [&](size_t i) {
+      const Wanted& w = wanted_[i];
+      *w.kernel = std::make_unique<vulkan::Kernel>(source_.device, source_.table, w.name, w.spirv, w.constants);
+      const std::lock_guard lock(telling);
+      source_.made(**w.kernel);
+    });
+  }
+
+ private:
+  struct Wanted {
+    Kernels::Pointer* kernel;
+    std::string name;
+    std::span<const uint32_t> spirv;
+    SpecializationConstants constants;
+  };
+  const KernelSource& source_;
+  std::vector<std::string>& names_;
+  std::vector<Wanted> wanted_;
+};
 
 }  // namespace
 
@@ -57,7 +83,9 @@ Kernels build_fused_kernel(const KernelSource& source, const BakedGeometry& bake
   Kernels kernels;
   SpecializationConstants constants = source.features.union_constants();
   constants.insert(baked.constants.begin(), baked.constants.end());
-  kernels.follow_paths = make_kernel(source, "follow_paths", baked.kernel, constants, kernels.run);
+  KernelBuilder builder(source, kernels.run);
+  builder.add(kernels.follow_paths, "follow_paths", baked.kernel, constants);
+  builder.build();
   kernels.skipped = {"tree", "path state and queues", "intersect_closest", "intersect_shadow", "shade_surface"};
   return kernels;
 }
@@ -65,80 +93,81 @@ Kernels build_fused_kernel(const KernelSource& source, const BakedGeometry& bake
 PhotonKernels build_photon_kernels(const KernelSource& source) {
   PhotonKernels kernels;
   const FeatureSet& features = source.features;
-  kernels.init_from_lights =
-      make_kernel(source, "init_from_lights", "init_from_lights", features.constants(), kernels.names);
+  KernelBuilder builder(source, kernels.names);
+  builder.add(kernels.init_from_lights, "init_from_lights", "init_from_lights", features.constants());
+  kernels.scatter_photons.resize(features.classes.size());
   for (size_t c = 0; c < features.classes.size(); ++c) {
     const MaterialClass& material_class = features.classes[c];
+    if (!can_be_guided(material_class)) continue;
     SpecializationConstants constants = features.class_constants(c);
     constants[gpu::kFeatureGuide] = constants[gpu::kFeaturePhotons] = true;
-    kernels.scatter_photons.push_back(
-        can_be_guided(material_class)
-            ? make_kernel(source, "scatter_photons<" + class_name(material_class) + ">",
-                          surface_kernel_file(material_class), constants, kernels.names)
-            : nullptr);
+    builder.add(kernels.scatter_photons[c], "scatter_photons<" + class_name(material_class) + ">",
+                surface_kernel_file(material_class), constants);
   }
+  builder.build();
   return kernels;
 }
 
 void build_surface_kernels(const KernelSource& source, bool guided, Kernels& kernels) {
+  KernelBuilder builder(source, kernels.run);
   for (size_t c = 0; c < source.features.classes.size(); ++c) {
     if (kernels.shade_surface[c]) continue;
     const MaterialClass& material_class = source.features.classes[c];
     SpecializationConstants constants = source.features.class_constants(c);
     constants[gpu::kFeatureGuide] = guided;
-    kernels.shade_surface[c] =
-        make_kernel(source, surface_kernel_name(material_class) + (guided ? " guided" : ""),
-                    surface_kernel_file(material_class), constants, kernels.run);
+    builder.add(kernels.shade_surface[c], surface_kernel_name(material_class) + (guided ? " guided" : ""),
+                surface_kernel_file(material_class), constants);
   }
+  builder.build();
 }
 
 Kernels build_stages(const KernelSource& source, bool may_guide) {
   const FeatureSet& features = source.features;
+  const SpecializationConstants common = features.constants();
   Kernels kernels;
-  const auto make = [&](const std::string& name, const std::string& file, const SpecializationConstants& constants) {
-    return make_kernel(source, name, file, constants, kernels.run);
-  };
-  const auto make_if = [&](bool needed, const char* name) -> Kernels::Pointer {
-    if (needed) return make(name, name, features.constants());
-    kernels.skipped.push_back(name);
-    return nullptr;
+  KernelBuilder builder(source, kernels.run);
+  const auto add_if = [&](bool needed, Kernels::Pointer& kernel, const char* name) {
+    if (needed)
+      builder.add(kernel, name, name, common);
+    else
+      kernels.skipped.push_back(name);
   };
 
   // Rays may go on at null surfaces whatever the depth.
   const bool bounces = features.max_depth > 1 || features.shadow_null, media = features.has_media();
-  kernels.init_from_camera = make("init_from_camera", "init_from_camera", features.constants());
-  kernels.prepare_dispatch = make("prepare_dispatch", "prepare_dispatch", features.constants());
-  kernels.intersect_primary = make("intersect_primary", "intersect_primary", features.constants());
-  kernels.intersect_closest = make_if(bounces, "intersect_closest");
-  kernels.shade_emitter = make_if(features.area_lights(), "shade_emitter");
-  kernels.shade_escaped = make_if(features.environment(), "shade_escaped");
+  builder.add(kernels.init_from_camera, "init_from_camera", "init_from_camera", common);
+  builder.add(kernels.prepare_dispatch, "prepare_dispatch", "prepare_dispatch", common);
+  builder.add(kernels.intersect_primary, "intersect_primary", "intersect_primary", common);
+  add_if(bounces, kernels.intersect_closest, "intersect_closest");
+  add_if(features.area_lights(), kernels.shade_emitter, "shade_emitter");
+  add_if(features.environment(), kernels.shade_escaped, "shade_escaped");
+  if (bounces) kernels.shade_surface.resize(features.classes.size());
   for (size_t c = 0; c < features.classes.size(); ++c) {
-    const std::string name = surface_kernel_name(features.classes[c]);
-    if (may_guide && can_be_guided(features.classes[c]))
-      kernels.shade_surface.push_back(nullptr);
-    else if (bounces)
-      kernels.shade_surface.push_back(make(name, surface_kernel_file(features.classes[c]),
-                                           features.class_constants(c)));
-    else
+    const MaterialClass& material_class = features.classes[c];
+    const std::string name = surface_kernel_name(material_class);
+    if (!bounces)
       kernels.skipped.push_back(name);
+    else if (!may_guide || !can_be_guided(material_class))
+      builder.add(kernels.shade_surface[c], name, surface_kernel_file(material_class), features.class_constants(c));
   }
   if (features.classes.empty()) kernels.skipped.push_back("shade_surface");
   const bool shadow = features.selection != gpu::kSelectNone && features.strategy != gpu::kStrategyBsdf &&
                       (!features.classes.empty() || media) && features.max_depth > 1;
   // With several classes the kernel must know the materials of all of them.
   if (shadow && features.media != 0)
-    kernels.intersect_shadow =
-        make("intersect_shadow_transmittance", "intersect_shadow_transmittance", features.union_constants());
+    builder.add(kernels.intersect_shadow, "intersect_shadow_transmittance", "intersect_shadow_transmittance",
+                features.union_constants());
   else
-    kernels.intersect_shadow = make_if(shadow, "intersect_shadow");
-  kernels.sample_medium = make_if(media, "sample_medium");
-  kernels.shade_medium = make_if(media && features.max_depth > 1, "shade_medium");
+    add_if(shadow, kernels.intersect_shadow, "intersect_shadow");
+  add_if(media, kernels.sample_medium, "sample_medium");
+  add_if(media && features.max_depth > 1, kernels.shade_medium, "shade_medium");
   const bool segments = media && (features.media & gpu::kMediaSegments) && features.max_depth > 1;
-  kernels.shade_segment = make_if(segments, "shade_segment");
-  kernels.write_film = make("write_film", "write_film", features.constants());
+  add_if(segments, kernels.shade_segment, "shade_segment");
+  builder.add(kernels.write_film, "write_film", "write_film", common);
   const uint32_t moment = 1u << gpu::kAovMoment;
-  if (features.aovs & ~moment) kernels.write_aov = make("write_aov", "write_aov", features.union_constants());
-  if (features.aovs & moment) kernels.write_moment = make("write_moment", "write_moment", features.constants());
+  if (features.aovs & ~moment) builder.add(kernels.write_aov, "write_aov", "write_aov", features.union_constants());
+  if (features.aovs & moment) builder.add(kernels.write_moment, "write_moment", "write_moment", common);
+  builder.build();
   return kernels;
 }
 

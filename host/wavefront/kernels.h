@@ -22,7 +22,8 @@ struct Kernels {
   std::vector<std::string> run, skipped;  // stages, for people
 };
 
-/// What kernels are made of. All samples of a pixel lie below `end_sample`. made: is told of each as soon as it is there.
+/// What kernels are made of. All samples of a pixel lie below `end_sample`. made: is told of each as soon as it is there, by one
+/// thread at a time.
 struct KernelSource {
   vulkan::Device& device;
   const vulkan::BindingTable& table;
