@@ -9,6 +9,12 @@ namespace {
 constexpr uint32_t kQueriesPerPool = 512;
 constexpr uint32_t kNotTimed = ~0u;
 
+// As check(); but when it throws nothing is in flight, so that what the commands use may be destroyed.
+void check_when_idle(const Device& device, VkResult result, const char* call) {
+  if (result != VK_SUCCESS) vkQueueWaitIdle(device.queue());
+  check(result, call);
+}
+
 }  // namespace
 
 Commands::Commands(Device& device) : device_(device) {
@@ -142,7 +148,7 @@ void Commands::end_and_submit(VkFence fence) {
   VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
   submit.commandBufferCount = 1;
   submit.pCommandBuffers = &buffer_;
-  check(vkQueueSubmit(device_.queue(), 1, &submit, fence), "vkQueueSubmit");
+  check_when_idle(device_, vkQueueSubmit(device_.queue(), 1, &submit, fence), "vkQueueSubmit");
 }
 
 void Commands::submit() {
@@ -157,7 +163,7 @@ void Commands::submit_and_wait() {
   begin();
   check(vkResetFences(device_.handle(), 1, &fence_), "vkResetFences");
   end_and_submit(fence_);
-  check(vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, ~0ull), "vkWaitForFences");
+  check_when_idle(device_, vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, ~0ull), "vkWaitForFences");
   if (!in_flight_.empty())
     vkFreeCommandBuffers(device_.handle(), pool_, static_cast<uint32_t>(in_flight_.size()), in_flight_.data());
   in_flight_.clear();

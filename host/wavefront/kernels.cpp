@@ -57,12 +57,22 @@ class KernelBuilder {
 
   void build() {
     std::mutex telling;
-    parallel_for_each(wanted_.size(), [&](size_t i) {
+    bool failed = false;
+    const auto make = [&](size_t i) {
       const Wanted& w = wanted_[i];
       *w.kernel = std::make_unique<vulkan::Kernel>(source_.device, source_.table, w.name, w.spirv, w.constants);
       const std::lock_guard lock(telling);
+      if (failed) return;
+      failed = true;
       source_.made(**w.kernel);
-    });
+      failed = false;
+    };
+    try {
+      parallel_for_each(wanted_.size(), make);
+    } catch (...) {
+      vkQueueWaitIdle(source_.device.queue());  // may run kernels that are about to be destroyed
+      throw;
+    }
   }
 
  private:

@@ -1,5 +1,5 @@
 // The rays that a subgroup of a trace kernel takes: the places of a queue that have one (shared/counters.h), put side by
-// side in shared memory. Before it includes this file the kernel includes geometry/trace_settings.glsl.
+// side in shared memory, for trace_rays.
 #ifndef TACHYLITE_PATH_LISTED_RAYS_GLSL
 #define TACHYLITE_PATH_LISTED_RAYS_GLSL
 #extension GL_KHR_shader_subgroup_shuffle : require

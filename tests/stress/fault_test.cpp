@@ -101,9 +101,9 @@ TEST_F(Faults, ALostDeviceIsRetriedOnce) {
   const std::vector<std::string> options = {"--spp", "24", "--max-paths", "1024", "-o", "a.exr"};
   ASSERT_EQ(render(options).exit_code, 0);
   const Image whole = read_exr(folder / "a.exr");
-  // The first submissions copy and warm up; then each pass is one.
+  // The first submissions copy and try each kernel; then each pass is one.
   for (const char* fault : {"vkCreateDevice:1:-4", "vkQueueSubmit:1:-4", "vkWaitForFences:1:-4", "vkWaitForFences:2:-4",
-                            "vkWaitForFences:5:-4", "vkQueueSubmit:4:-4", "vkWaitForFences:7:-4"}) {
+                            "vkWaitForFences:5:-4", "vkQueueSubmit:4:-4", "vkQueueSubmit:12:-4", "vkWaitForFences:7:-4"}) {
     SCOPED_TRACE(fault);
     std::filesystem::remove(folder / "a.exr");
     const ProgramResult result = render(options, fault);
