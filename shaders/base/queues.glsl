@@ -66,7 +66,7 @@ void report_unfinished(bool unfinished) {
 }
 
 // Adds a count of each lane to one of the wave.
-void count_traced(uint counter, uint count) {
+void add_to_counter(uint counter, uint count) {
   uint sum = subgroupAdd(count);
   if (subgroupElect() && sum > 0u) atomicAdd(counters[counter], sum);
 }

@@ -133,7 +133,7 @@ void main() {
     }
   }
   report_unfinished(going);
-  count_traced(kCounterClosestTotal, closest_rays);
-  count_traced(kCounterShadowTotal, shadow_rays);
-  count_traced(kCounterNonfinite, nonfinite);
+  add_to_counter(kCounterClosestTotal, closest_rays);
+  add_to_counter(kCounterShadowTotal, shadow_rays);
+  add_to_counter(kCounterNonfinite, nonfinite);
 }

@@ -13,7 +13,7 @@ layout(local_size_x = 64) in;
 void main() {
   uint i = gl_GlobalInvocationID.x;
   uint slot = i < queue_length(kQueueShadow) ? load_queue(kQueueShadow, i) : kNoPath;
-  count_traced(kCounterShadowTotal, slot != kNoPath ? 1u : 0u);
+  add_to_counter(kCounterShadowTotal, slot != kNoPath ? 1u : 0u);
   if (slot == kNoPath) return;
   vec4 o = load_shadow(0u, i), d = load_shadow(1u, i), c = load_shadow(2u, i);
   uint target = floatBitsToUint(d.w);

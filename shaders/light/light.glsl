@@ -29,10 +29,6 @@ struct LightSample {
 
 bool is_light(uint kind, uint wanted) { return has_light(wanted) && kind == wanted; }
 
-bool has_area_lights() {
-  return (light_kinds & (1u << kLightTriangles | 1u << kLightRectangle | 1u << kLightSphere | 1u << kLightDisk |
-                         1u << kLightCylinder)) != 0u;
-}
 bool has_framed_lights() { return (light_kinds & (1u << kLightSpot | 1u << kLightProjector)) != 0u; }
 
 // First row of the record of the primitive that was hit.
@@ -142,7 +138,7 @@ LightSample sample_light(vec3 p, vec3 n, vec2 u, float u_select, out float selec
   uint kind = floatBitsToUint(row0.w) & kLightKindMask, flags = floatBitsToUint(row0.w);
   LightSample s = LightSample(vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0, false, kTargetInfinite);
 
-  if (has_area_lights()) {
+  if (has_area_light()) {
     vec4 row1 = load_found_light(light, 1u), row2 = load_found_light(light, 2u), row3 = load_found_light(light, 3u);
     vec4 row4 = load_found_light(light, 4u), row5 = load_found_light(light, 5u);
     vec3 v0 = row1.xyz - p;
