@@ -57,7 +57,7 @@ class KernelBuilder {
 
   void build() {
     std::mutex telling;
-    bool failed = false;
+    bool failed = false;  // no more may be told once telling has thrown
     const auto make = [&](size_t i) {
       const Wanted& w = wanted_[i];
       *w.kernel = std::make_unique<vulkan::Kernel>(source_.device, source_.table, w.name, w.spirv, w.constants);

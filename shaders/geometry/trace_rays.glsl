@@ -21,8 +21,7 @@ uint count_lanes(bool counts) {
 }
 
 // Where this subgroup's rays begin among those of its workgroup, and how many they are at most.
-uint rays_per_lane() { return kRaysPerGroup / gl_WorkGroupSize.x; }
-uint rays_per_subgroup() { return rays_per_lane() * gl_SubgroupSize; }
+uint rays_per_subgroup() { return kRaysPerLane * gl_SubgroupSize; }
 uint first_ray_in_group() { return gl_SubgroupID * rays_per_subgroup(); }
 
 // Rays next .. end - 1. All loops end for a whole subgroup at once, and what lives on is carried by them

@@ -3,4 +3,5 @@
 #ifndef TACHYLITE_GEOMETRY_TRACE_SETTINGS_GLSL
 #define TACHYLITE_GEOMETRY_TRACE_SETTINGS_GLSL
 const uint kRaysPerGroup = 1024u;
+const uint kRaysPerLane = kRaysPerGroup / 64u;
 #endif

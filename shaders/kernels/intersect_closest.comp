@@ -62,7 +62,7 @@ void store_hit(uint place, TraceHit hit) {
 void sort_paths(uint begin, uint mask) {
   for (uint queue = kQueueEmitter; queue < kQueueSurface + class_count; queue += 6u) {
     uvec3 lengths = uvec3(0u);  // of the lane's parts of the six, 16 bits each
-    for (uint k = 0u; k < kPlacesPerLane; ++k) {
+    for (uint k = 0u; k < kRaysPerLane; ++k) {
       uint i = (begin + k) % kRaysPerGroup, queues = hit_ids[i];
       if (queue == kQueueEmitter) {
         uint edges = is_volumetric() ? load_volume_path(load_queue(wave.ray_queue, begin + k)).edges : wave.bounce + 1u;
@@ -85,7 +85,7 @@ void sort_paths(uint begin, uint mask) {
     }
     low = subgroupBroadcastFirst(low) + (before & 0xffffu);
     high = subgroupBroadcastFirst(high) + (before >> 16u);
-    for (uint k = 0u; k < kPlacesPerLane; ++k) {
+    for (uint k = 0u; k < kRaysPerLane; ++k) {
       uint queues = hit_ids[(begin + k) % kRaysPerGroup], slot = load_queue(wave.ray_queue, begin + k);
       uint q = surface_queue(queues) - queue;
       bvec3 pair = equal(uvec3(q >> 1u), uvec3(0u, 1u, 2u));
@@ -105,8 +105,7 @@ void sort_paths(uint begin, uint mask) {
 
 void main() {
   uint first = first_ray_in_group();
-  RayList list = list_rays(wave.ray_queue, first);
-  if (subgroupElect() && list.count > 0u) atomicAdd(counters[kCounterClosestTotal], list.count);
+  RayList list = list_rays(wave.ray_queue, first, kCounterClosestTotal);
   trace_rays(first, first + list.count, false);
   report_unfinished(rays_unfinished);
   if (has_media()) return;  // sample_medium sorts

@@ -23,8 +23,7 @@ void store_hit(uint place, TraceHit hit) {
 
 void main() {
   uint first = first_ray_in_group();
-  uint count = list_rays(kQueueShadow, first).count;
-  if (subgroupElect() && count > 0u) atomicAdd(counters[kCounterShadowTotal], count);
+  uint count = list_rays(kQueueShadow, first, kCounterShadowTotal).count;
   trace_rays(first, first + count, true);
   report_unfinished(rays_unfinished);
 }

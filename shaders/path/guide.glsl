@@ -30,8 +30,7 @@ void deposit_photon(bool wanted, uint cell, vec3 w, float flux, bool is_caustic)
   wanted = wanted && w.z > 0.0;
   flux = clamp(flux, 0.0, 16.0);
   if (wanted) atomicAdd(photon_flux[cell + guide_bin(w)], uint(flux * kPhotonUnit + 0.5));
-  uint caustics = subgroupAdd(wanted && is_caustic ? uint(flux * kCausticUnit + 0.5) : 0u);
-  if (subgroupElect() && caustics > 0u) atomicAdd(counters[kCounterCaustics], caustics);
+  add_to_counter(kCounterCaustics, wanted && is_caustic ? uint(flux * kCausticUnit + 0.5) : 0u);
 }
 
 #endif

@@ -9,10 +9,9 @@
 shared uint listed[kRaysPerGroup];
 uint ray_at(uint i) { return listed[i]; }
 
-// Places of which each lane has kPlacesPerLane neighbouring ones.
-const uint kPlacesPerLane = kRaysPerGroup / 64u;
+// The first of the kRaysPerLane neighbouring places that a lane lists.
 uint first_place(uint first) {
-  return gl_WorkGroupID.x * kRaysPerGroup + first + gl_SubgroupInvocationID * kPlacesPerLane;
+  return gl_WorkGroupID.x * kRaysPerGroup + first + gl_SubgroupInvocationID * kRaysPerLane;
 }
 
 struct RayList {
@@ -20,20 +19,22 @@ struct RayList {
   uint mask;  // bit k: whether place first_place + k of the lane has a ray
 };
 
-// Lists the rays of the queue's places that fall to this subgroup, from listed[first] on.
-RayList list_rays(uint queue, uint first) {
+// Lists the rays of the queue's places that fall to this subgroup, from listed[first] on, and adds their number to a
+// counter.
+RayList list_rays(uint queue, uint first, uint total) {
   uint begin = first_place(first), places = queue_length(queue);
   RayList list = RayList(0u, 0u);
-  for (uint k = 0u; k < kPlacesPerLane; ++k)
+  for (uint k = 0u; k < kRaysPerLane; ++k)
     if (begin + k < places && load_queue(queue, begin + k) != kNoPath) list.mask |= 1u << k;
   uint rays = bitCount(list.mask), next = first + subgroupExclusiveAdd(rays);
   list.count = subgroupShuffle(next + rays, gl_SubgroupSize - 1u) - first;
-  for (uint k = 0u; k < kPlacesPerLane; ++k) {
+  for (uint k = 0u; k < kRaysPerLane; ++k) {
     if ((list.mask & 1u << k) != 0u) {
       listed[next] = begin + k;
       next += 1u;
     }
   }
+  if (subgroupElect() && list.count > 0u) atomicAdd(counters[total], list.count);
   subgroupMemoryBarrierShared();
   subgroupBarrier();
   return list;
