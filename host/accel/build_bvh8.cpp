@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "accel/binary_bvh.h"
 #include "accel/bvh.h"
+#include "accel/choose_walls.h"
 #include "accel/flatten_bvh8.h"
 #include "accel/pair_triangles.h"
 #include "base/check.h"
@@ -56,28 +58,13 @@ void check_curved(const BvhInput& input) {
   }
 }
 
-struct LeafVertices {
-  std::array<glm::vec3, 4> v;
-};
-
-LeafVertices pair_vertices(const BvhInput& input, const TrianglePair& pair) {
-  const glm::uvec3 a = input.triangles[pair.first];
-  const uint32_t r0 = pair.rotation & 3, r1 = pair.rotation >> 2;
-  const auto vertex = [&](const glm::uvec3& t, uint32_t k) {
-    return input.vertices[t[static_cast<int>(k % 3)]];
-  };
-  const glm::vec3 v2 = vertex(a, 2 + r0);
-  return {{vertex(a, r0), vertex(a, 1 + r0), v2,
-           pair.second == TrianglePair::kNoTriangle ? v2 : vertex(input.triangles[pair.second], 2 + r1)}};
-}
-
 std::vector<BinaryNode> bound_primitives(const BvhInput& input, const std::vector<TrianglePair>& pairs) {
   std::vector<BinaryNode> primitives(pairs.size() + input.curved.size());
   parallel_for(0, primitives.size(), kMeshGrain, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       Box b;
       if (i < pairs.size())
-        for (const glm::vec3& v : pair_vertices(input, pairs[i]).v) b.grow(Lanes{v.x, v.y, v.z, 0});
+        for (const glm::vec3& v : pair_vertices(input, pairs[i])) b.grow(Lanes{v.x, v.y, v.z, 0});
       else
         b = curved_box(input.curved[i - pairs.size()]);
       primitives[i].set_box(b);
@@ -108,7 +95,7 @@ void write_leaves(const BvhInput& input, const std::vector<TrianglePair>& pairs,
       const uint32_t primitive = leaf_primitives[i];
       if (primitive < pairs.size()) {
         const TrianglePair& pair = pairs[primitive];
-        const auto v = pair_vertices(input, pair).v;
+        const std::array<glm::vec3, 4> v = pair_vertices(input, pair);
         for (int a = 0; a < 3; ++a) row[a] = {v[0][a], v[1][a], v[2][a], v[3][a]};
         const bool lone = pair.second == TrianglePair::kNoTriangle;
         bvh.leaf_info[i] = {pair.first, lone ? pair.first : pair.second, gpu::kLeafTriangles,
@@ -141,7 +128,15 @@ Bvh8 build_bvh8(const BvhInput& input, const BvhSettings& settings) {
 
   timer = Timer();
   constexpr int kMaxBinaryDepth = 96;
-  BinaryBvh binary = build_binary_bvh(bound_primitives(input, pairing.pairs), settings.bins, kMaxBinaryDepth);
+  std::vector<BinaryNode> primitives = bound_primitives(input, pairing.pairs);
+  const std::vector<uint32_t> walls = choose_walls(input, pairing.pairs, primitives, settings.most_walls);
+  Box box;
+  for (const uint32_t wall : walls) box.grow(primitives[wall].box());
+  const auto is_wall = [&](const BinaryNode& node) {
+    return std::find(walls.begin(), walls.end(), node.first) != walls.end();
+  };
+  if (!walls.empty()) std::erase_if(primitives, is_wall);
+  BinaryBvh binary = build_binary_bvh(std::move(primitives), settings.bins, kMaxBinaryDepth);
   stats.build_seconds = timer.seconds();
   timer = Timer();
   optimise_binary_bvh(binary, settings.reinsertion_passes);
@@ -152,16 +147,20 @@ Bvh8 build_bvh8(const BvhInput& input, const BvhSettings& settings) {
   FlatNodes flat = flatten_bvh8(binary, curved);
   if (flat.depth > static_cast<int>(gpu::kBvhMaxDepth)) {
     // A wide tree is never deeper than the binary one.
-    binary = build_binary_bvh(bound_primitives(input, pairing.pairs), settings.bins, gpu::kBvhMaxDepth);
+    primitives = bound_primitives(input, pairing.pairs);
+    if (!walls.empty()) std::erase_if(primitives, is_wall);
+    binary = build_binary_bvh(std::move(primitives), settings.bins, gpu::kBvhMaxDepth);
     flat = flatten_bvh8(binary, curved);
   }
   CHECK_LE(flat.depth, static_cast<int>(gpu::kBvhMaxDepth));
   bvh.nodes = std::move(flat.rows);
+  bvh.first_wall = static_cast<uint32_t>(flat.leaf_primitives.size());
+  flat.leaf_primitives.insert(flat.leaf_primitives.end(), walls.begin(), walls.end());
   write_leaves(input, pairing.pairs, flat.leaf_primitives, bvh);
   stats.flatten_seconds = timer.seconds();
 
   if (leaves) {
-    const Box box = binary.nodes[BinaryBvh::kRoot].box();
+    if (!binary.nodes.empty()) box.grow(binary.nodes[BinaryBvh::kRoot].box());
     bvh.box_min = {box.lo[0], box.lo[1], box.lo[2]};
     bvh.box_max = {box.hi[0], box.hi[1], box.hi[2]};
   }
@@ -170,7 +169,8 @@ Bvh8 build_bvh8(const BvhInput& input, const BvhSettings& settings) {
   stats.leaves = leaves;
   stats.pairs = input.triangles.size() - pairing.dropped - pairing.pairs.size();
   stats.curved = input.curved.size();
-  stats.nodes2 = leaves ? leaves - 1 : 0;
+  stats.walls = walls.size();
+  stats.nodes2 = bvh.first_wall ? bvh.first_wall - 1 : 0;
   stats.nodes8 = flat.nodes;
   stats.sah_cost2 = settings.traversal_cost * visits.inner + settings.intersection_cost * visits.leaves;
   stats.sah_cost8 =

@@ -35,11 +35,12 @@ struct BvhSettings {
   int bins = 32;
   double traversal_cost = 1.2, intersection_cost = 1.0;  // of the surface area heuristic
   int reinsertion_passes = 12;                           // at most (Meister and Bittner 2018); 0: none
+  uint32_t most_walls = 0;                               // accel/choose_walls.h
 };
 
 struct BvhStatistics {
   uint64_t triangles = 0, dropped = 0;  // dropped: degenerate
-  uint64_t leaves = 0, pairs = 0, curved = 0, nodes2 = 0, nodes8 = 0;
+  uint64_t leaves = 0, pairs = 0, curved = 0, walls = 0, nodes2 = 0, nodes8 = 0;
   // Expected cost of a random line that hits the scene's box, before and after the collapse (boxes as quantised), and
   // how many 8-wide nodes and leaves it meets.
   double sah_cost2 = 0, sah_cost8 = 0;
@@ -51,11 +52,12 @@ struct BvhStatistics {
 };
 
 /// The flattened structure in the layout of shared/bvh.h. nodes[0..4] is the root (alone in its block of 8).
-/// An empty input gives a root whose slots are all empty.
+/// An empty input gives a root whose slots are all empty. Leaves from first_wall on are in no node.
 struct Bvh8 {
   std::vector<glm::uvec4> nodes;      // kBvhNodeRows a node
   std::vector<glm::vec4> leaves;      // kBvhLeafRows a leaf
   std::vector<glm::uvec4> leaf_info;  // one a leaf
+  uint32_t first_wall = 0;            // leaf; leaf_info.size() where there are none
   glm::vec3 box_min{0}, box_max{0};
   BvhStatistics statistics;
 };

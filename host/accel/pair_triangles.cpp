@@ -260,4 +260,15 @@ Pairing pair_triangles(const BvhInput& input, double max_area_ratio) {
   return Matcher(input, max_area_ratio).run();
 }
 
+std::array<glm::vec3, 4> pair_vertices(const BvhInput& input, const TrianglePair& pair) {
+  const glm::uvec3 a = input.triangles[pair.first];
+  const uint32_t r0 = pair.rotation & 3, r1 = pair.rotation >> 2;
+  const auto vertex = [&](const glm::uvec3& t, uint32_t k) {
+    return input.vertices[t[static_cast<int>(k % 3)]];
+  };
+  const glm::vec3 v2 = vertex(a, 2 + r0);
+  return {vertex(a, r0), vertex(a, 1 + r0), v2,
+          pair.second == TrianglePair::kNoTriangle ? v2 : vertex(input.triangles[pair.second], 2 + r1)};
+}
+
 }  // namespace tachylite

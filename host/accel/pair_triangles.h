@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -15,6 +16,9 @@ struct TrianglePair {
   uint32_t first = kNoTriangle, second = kNoTriangle;
   uint32_t rotation = 0;  // of the first in bits 0-1, of the second in bits 2-3
 };
+
+/// v0 v1 v2 v3 of shared/bvh.h.
+std::array<glm::vec3, 4> pair_vertices(const BvhInput& input, const TrianglePair& pair);
 
 struct Pairing {
   std::vector<TrianglePair> pairs;  // in the order of their first triangles

@@ -90,7 +90,8 @@ class UnitVectors {
 
 class Baker {
  public:
-  explicit Baker(const PackedScene& scene) : scene_(scene) {
+  /// walls: of a scene that has a tree, too.
+  Baker(const PackedScene& scene, bool walls) : scene_(scene), walls_(walls), rows_(walls ? gpu::kWallRows : gpu::kBakedRows) {
     extent_ = glm::max(glm::abs(dvec3(scene.bvh.box_min)), glm::abs(dvec3(scene.bvh.box_max)));
   }
 
@@ -113,7 +114,7 @@ class Baker {
     const double size = std::max(glm::length(v[2] - v[0]), glm::length(v[3] - v[1]));
     const bool parallelogram = info.x != info.y && glm::length(v[0] + v[2] - v[1] - v[3]) < 1e-6 * size;
     // A hit on two triangles at once does not tell which: that is enough where both are one light, or none.
-    if (parallelogram && lights_do_not_care(info)) {
+    if (parallelogram && (walls_ || lights_do_not_care(info))) {
       add(gpu::kBakedParallelogram, v[0], v[1], v[3], 0, info.x);
     } else {
       add(gpu::kBakedTriangle, v[0], v[1], v[2], 0, info.x);
@@ -170,7 +171,7 @@ class Baker {
   }
   // Ends a primitive, of which `rows` pairs of rows have been put.
   void finish(uint32_t kind_and_flags, uint32_t rows) {
-    const auto end = static_cast<uint32_t>(out_.rows.size() / gpu::kBakedRows);
+    const auto end = static_cast<uint32_t>(out_.rows.size() / rows_);
     constant(0, kind_and_flags | (end - rows) << gpu::kBakedRowShift);
     ++out_.count;
   }
@@ -205,6 +206,7 @@ class Baker {
   }
 
   void put_face_rows(const Face& face) {
+    if (walls_) return put_wall_rows(face);
     const auto& [v0, edges] = face.points;
     const dvec3 normal = glm::cross(edges[0], edges[1]), centre = v0 + 0.5 * (edges[0] + edges[1]);
     double sign;
@@ -212,6 +214,16 @@ class Baker {
     const bool flip = (shape(face.primitive).z & gpu::kShapeFlipNormals) != 0;
     const dvec3 n = unit * (flip ? -sign : sign);
     put_rows(glm::vec4(vec3(n), static_cast<float>(-glm::dot(n, centre))), face.primitive, shape(face.primitive), face.hit);
+  }
+
+  void put_wall_rows(const Face& face) {
+    const auto& [v0, edges] = face.points;
+    const dvec3 normal = glm::cross(edges[0], edges[1]);
+    for (size_t k = 0; k < 2; ++k) {
+      const dvec3 across = glm::cross(normal, edges[1 - k]), dual = across / glm::dot(across, edges[k]);
+      out_.rows.push_back(glm::vec4(vec3(dual), static_cast<float>(-glm::dot(dual, v0))));
+    }
+    out_.rows.push_back(glm::vec4(std::bit_cast<float>(face.hit), 0, 0, 0));
   }
 
   void put_box(const Box& box, const std::array<std::optional<size_t>, 6>& faces) {
@@ -236,7 +248,7 @@ class Baker {
       if (face)
         put_face_rows(*face);
       else
-        out_.rows.resize(out_.rows.size() + gpu::kBakedRows, glm::vec4(0));
+        out_.rows.resize(out_.rows.size() + rows_, glm::vec4(0));
     }
     finish(gpu::kBakedBox | present << gpu::kBakedFaceShift | (hull ? gpu::kBakedHull : 0), 6);
   }
@@ -263,6 +275,11 @@ class Baker {
       const auto [centre, radius] = sphere(leaf);
       include(dvec3(centre), double{radius});
     }
+    if (walls_)  // and the tree
+      for (int k = 0; k < 8; ++k) {
+        const vec3 &lo = scene_.bvh.box_min, &hi = scene_.bvh.box_max;
+        include({k & 1 ? lo.x : hi.x, k & 2 ? lo.y : hi.y, k & 4 ? lo.z : hi.z}, 0);
+      }
     return low > -tolerance || high < tolerance;
   }
 
@@ -295,6 +312,8 @@ class Baker {
   }
 
   const PackedScene& scene_;
+  const bool walls_;
+  const size_t rows_;  // of a face
   dvec3 extent_{0};
   std::vector<Face> faces_;
   std::vector<uint32_t> spheres_;  // leaves
@@ -308,7 +327,7 @@ std::optional<BakedGeometry> bake_geometry(const PackedScene& scene) {
   if (!fits(scene)) return std::nullopt;
   const std::optional<FusedKernel> kernel = fused_kernel(scene.features.union_class());
   if (!kernel) return std::nullopt;
-  Baker baker(scene);
+  Baker baker(scene, false);
   for (uint32_t leaf = 0; leaf < scene.bvh.leaf_info.size(); ++leaf)
     if (!baker.add_leaf(leaf)) return std::nullopt;
   std::optional<BakedGeometry> baked = baker.bake();
@@ -319,6 +338,12 @@ std::optional<BakedGeometry> bake_geometry(const PackedScene& scene) {
       return baked;
     }
   return std::nullopt;
+}
+
+BakedGeometry bake_walls(const PackedScene& scene) {
+  Baker baker(scene, true);
+  for (uint32_t leaf = scene.bvh.first_wall; leaf < scene.bvh.leaf_info.size(); ++leaf) baker.add_leaf(leaf);
+  return *baker.bake();
 }
 
 std::optional<PackedScene> pack_if_baked(const Scene& scene, int sensor) {

@@ -26,6 +26,9 @@ struct BakedGeometry {
 /// that Mesa 22.3.6 allows one invocation.
 std::optional<BakedGeometry> bake_geometry(const PackedScene& scene);
 
+/// The walls that the scene's tree leaves out, for the trace kernels; kWallRows rows a face.
+BakedGeometry bake_walls(const PackedScene& scene);
+
 /// The packed scene where bake_geometry finds that it fits, else empty; scenes of more primitives are not packed for it.
 std::optional<PackedScene> pack_if_baked(const Scene& scene, int sensor);
 

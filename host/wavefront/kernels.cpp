@@ -131,7 +131,7 @@ void build_surface_kernels(const KernelSource& source, bool guided, Kernels& ker
   builder.build();
 }
 
-Kernels build_stages(const KernelSource& source, bool may_guide) {
+Kernels build_stages(const KernelSource& source, const BakedGeometry& walls, bool may_guide) {
   const FeatureSet& features = source.features;
   const SpecializationConstants common = features.constants();
   Kernels kernels;
@@ -143,12 +143,19 @@ Kernels build_stages(const KernelSource& source, bool may_guide) {
       kernels.skipped.push_back(name);
   };
 
+  const auto add_trace = [&](bool needed, Kernels::Pointer& kernel, const char* name) {
+    if (!needed || walls.count == 0) return add_if(needed, kernel, name);
+    SpecializationConstants constants = common;
+    constants.insert(walls.constants.begin(), walls.constants.end());
+    builder.add(kernel, name, std::string(name) + "_walls", constants);
+  };
+
   // Rays may go on at null surfaces whatever the depth.
   const bool bounces = features.max_depth > 1 || features.shadow_null, media = features.has_media();
   builder.add(kernels.init_from_camera, "init_from_camera", "init_from_camera", common);
   builder.add(kernels.prepare_dispatch, "prepare_dispatch", "prepare_dispatch", common);
-  builder.add(kernels.intersect_primary, "intersect_primary", "intersect_primary", common);
-  add_if(bounces, kernels.intersect_closest, "intersect_closest");
+  add_trace(true, kernels.intersect_primary, "intersect_primary");
+  add_trace(bounces, kernels.intersect_closest, "intersect_closest");
   add_if(features.area_lights(), kernels.shade_emitter, "shade_emitter");
   add_if(features.environment(), kernels.shade_escaped, "shade_escaped");
   if (bounces) kernels.shade_surface.resize(features.classes.size());
@@ -168,7 +175,7 @@ Kernels build_stages(const KernelSource& source, bool may_guide) {
     builder.add(kernels.intersect_shadow, "intersect_shadow_transmittance", "intersect_shadow_transmittance",
                 features.union_constants());
   else
-    add_if(shadow, kernels.intersect_shadow, "intersect_shadow");
+    add_trace(shadow, kernels.intersect_shadow, "intersect_shadow");
   add_if(media, kernels.sample_medium, "sample_medium");
   add_if(media && features.max_depth > 1, kernels.shade_medium, "shade_medium");
   const bool segments = media && (features.media & gpu::kMediaSegments) && features.max_depth > 1;

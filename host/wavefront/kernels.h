@@ -36,7 +36,7 @@ struct KernelSource {
 /// The one kernel for whole paths.
 Kernels build_fused_kernel(const KernelSource& source, const BakedGeometry& baked);
 /// The stages; may_guide: but those of surfaces that can_be_guided(), for build_surface_kernels().
-Kernels build_stages(const KernelSource& source, bool may_guide);
+Kernels build_stages(const KernelSource& source, const BakedGeometry& walls, bool may_guide);
 /// The stages that build_stages() has left out.
 void build_surface_kernels(const KernelSource& source, bool guided, Kernels& kernels);
 

@@ -23,6 +23,7 @@ struct WavePlan {
   WavePlan(const PackedScene& scene, const RenderOptions& options);
 
   std::optional<BakedGeometry> baked;  // one kernel for whole paths
+  BakedGeometry walls;                 // else: what is not in the tree
   bool may_guide = false;              // photons decide whether directions are guided
   uint32_t capacity = 0;               // paths in flight, in stages
   uint32_t pixels = 0, blocks = 0;     // of a wave at most: `blocks` blocks of samples of `pixels` pixels in tile order

@@ -49,6 +49,25 @@ Traversal begin_traversal(TraceRay ray) {
   return s;
 }
 
+// Bit s of the mask goes to bit s ^ octant.
+uint permute_mask(uint mask, uint octant) {
+  uint t = ((mask & 0x55u) << 1u) | ((mask >> 1u) & 0x55u);
+  mask = (octant & 1u) != 0u ? t : mask;
+  t = ((mask & 0x33u) << 2u) | ((mask >> 2u) & 0x33u);
+  mask = (octant & 2u) != 0u ? t : mask;
+  t = ((mask & 0x0fu) << 4u) | (mask >> 4u);
+  return (octant & 4u) != 0u ? t : mask;
+}
+
+// What the first step would do of a traversal that has just begun; slots: of the root, those whose boxes the ray meets.
+void visit_root(inout Traversal s, uint slots) {
+  uvec4 n0 = load_bvh_node(0u), n1 = load_bvh_node(1u);
+  uint inner = permute_mask(slots & (n0.w >> 24u), s.octant);
+  s.group = n1.x << 8u | inner;
+  s.leaf_base = n1.y;
+  s.leaves = n1.w | (slots & n1.w & 0xffu) << 8u;
+}
+
 bool is_traversing(Traversal s) { return (s.group & 0xffu) != 0u || (s.leaves & kPendingLeaves) != 0u; }
 
 // 1 + q / 256 for each of four bytes q: the byte becomes mantissa bits. Cheaper than a conversion.
@@ -85,16 +104,6 @@ uint hit_boxes(Traversal s, uvec4 n0, uvec4 n2, uvec4 n3, uvec4 n4) {
   vec4 leave1 = least(least(unpack_bytes(far_x.y) * scale_far.x + offset_far.x, unpack_bytes(far_y.y) * scale_far.y + offset_far.y),
                       least(unpack_bytes(far_z.y) * scale_far.z + offset_far.z, far));
   return mask_of(lessThanEqual(enter0, leave0)) | mask_of(lessThanEqual(enter1, leave1)) << 4u;
-}
-
-// Bit s of the mask goes to bit s ^ octant.
-uint permute_mask(uint mask, uint octant) {
-  uint t = ((mask & 0x55u) << 1u) | ((mask >> 1u) & 0x55u);
-  mask = (octant & 1u) != 0u ? t : mask;
-  t = ((mask & 0x33u) << 2u) | ((mask >> 2u) & 0x33u);
-  mask = (octant & 2u) != 0u ? t : mask;
-  t = ((mask & 0x0fu) << 4u) | (mask >> 4u);
-  return (octant & 4u) != 0u ? t : mask;
 }
 
 // One step of a traversal; does nothing to one that has ended. With `any` the first hit ends it.

@@ -1,8 +1,8 @@
 // Traces many rays with few lanes: a lane that has finished its ray takes the next one, so that short rays do not wait
 // for long ones. The kernel defines, before it includes this file (and after geometry/bvh.glsl),
 //   uint ray_at(uint i)                  its name for ray i
-//   TraceRay fetch_ray(uint ray)
-//   void store_hit(uint ray, TraceHit hit)
+//   Traversal begin_ray(uint ray, const bool any)
+//   void end_ray(uint ray, TraceHit hit, const bool any)
 // and calls trace_rays from all lanes of workgroups of 64, each subgroup with rays of its own.
 // Aila and Laine 2009, "Understanding the Efficiency of Ray Traversal on GPUs", section 4.
 #ifndef TACHYLITE_GEOMETRY_TRACE_RAYS_GLSL
@@ -35,11 +35,11 @@ void trace_rays(uint next, uint end, const bool any) {
     bool idle = !is_traversing(s);
     uint rank = subgroupBallotExclusiveBitCount(subgroupBallot(idle));
     if (idle) {
-      if (ray != kNoHit) store_hit(ray, s.hit);
+      if (ray != kNoHit) end_ray(ray, s.hit, any);
       ray = kNoHit;
       if (next + rank < end) {
         ray = ray_at(next + rank);
-        s = begin_traversal(fetch_ray(ray));
+        s = begin_ray(ray, any);
       }
     }
     next += idle_lanes;
@@ -50,7 +50,7 @@ void trace_rays(uint next, uint end, const bool any) {
       idle_lanes = count_lanes(!is_traversing(s));
     } while (idle_lanes < enough);
   } while (next < end || idle_lanes < gl_SubgroupSize);
-  if (ray != kNoHit) store_hit(ray, s.hit);
+  if (ray != kNoHit) end_ray(ray, s.hit, any);
   rays_unfinished = rays_unfinished || next < end || is_traversing(s);
 }
 

@@ -15,7 +15,7 @@ layout(set = 0, binding = kBindLeafInfo) uniform usamplerBuffer leaf_info;
 // Of this workgroup's places, first what their rays hit, then where their paths go.
 shared uint hit_ids[kRaysPerGroup];
 
-TraceRay fetch_ray(uint place) {
+TraceRay load_ray(uint place) {
   uint slot = load_queue(wave.ray_queue, place);
   vec4 o = load_path(kPathOrigin, slot), d = load_path(kPathDirection, slot);
 #ifdef PRIMARY
@@ -37,11 +37,11 @@ bool is_cameras(uint slot) {
 #endif
 }
 
-void store_hit(uint place, TraceHit hit) {
+void finish_ray(uint place, TraceHit hit) {
   uint slot = load_queue(wave.ray_queue, place);
   // Area lights are transparent to the camera.
   if (hide_emitters && is_cameras(slot)) {
-    TraceRay ray = fetch_ray(place);
+    TraceRay ray = load_ray(place);
     bool hidden = hit.id != kNoHit && is_emitter(hit.id);
     for (int k = 0; k < 8 && hidden; ++k) {
       TraceRay rest = TraceRay(ray.o + hit.t * ray.d, ray.d, ray.tmax - hit.t, hit.id, kNoHit);
@@ -55,6 +55,7 @@ void store_hit(uint place, TraceHit hit) {
   hit_ids[place % kRaysPerGroup] = hit.id;
 }
 
+#include "path/walls.glsl"
 #include "geometry/trace_rays.glsl"
 
 // Appends the paths of this subgroup's rays to their queues: six queues at a time, with one atomic each. Each lane has
@@ -106,7 +107,7 @@ void sort_paths(uint begin, uint mask) {
 void main() {
   uint first = first_ray_in_group();
   RayList list = list_rays(wave.ray_queue, first, kCounterClosestTotal);
-  trace_rays(first, first + list.count, false);
+  trace_rays(first, first + trace_walls(first, list.count, false), false);
   report_unfinished(rays_unfinished);
   if (has_media()) return;  // sample_medium sorts
 

@@ -13,7 +13,11 @@
 //   box, a parallelepiped of four to six faces that are no lights: 1..3: N0, 5..7: N1, 9..11: N2; the planes
 //     dot(Nk, p) = w: 4, 8, 12 for face 2 k, with the smaller w, and 13, 14, 15 for face 2 k + 1. The faces that are
 //     there: 1 << face, from bit kBakedFaceShift of constant 0. Its hits are named by its faces' rows.
-// What shading needs of primitive i, or of each of the six faces of a box, kBakedRows rows of vec4 in kBindBaked:
+// Walls are parallelograms that a larger scene's tree leaves out (accel/choose_walls.h), as such constants of the trace
+// kernels, at most kMaxWalls primitives. Of each face kWallRows rows of vec4 in kBindBaked, in the order of rows below:
+//   rows 0, 1: dual vectors and offsets: a point v0 + a (v1 - v0) + b (v3 - v0) of the leaf has a = dot(row0, (p, 1)), b
+//     = dot(row1, (p, 1)); row 2: bits of the hit 2 * leaf.
+// What shading of tiny scenes needs of primitive i, or of each of the six faces of a box, kBakedRows rows of vec4 in kBindBaked:
 //   row 0: outward unit normal, offset: dot(n, p) + w = 0 (sphere: centre, radius; negative: normals point inwards)
 //   row 1: bits of: material row (kNoIndex: absorbs everything); light row; primitive of the scene (curved: kNoIndex); hit
 #ifndef TACHYLITE_SHARED_BAKED_H
@@ -35,7 +39,9 @@ TACHYLITE_CONST uint kBakedRowShift = 16u;
 TACHYLITE_CONST uint kBakedFirstConstant = 64u;
 TACHYLITE_CONST uint kBakedConstants = 16u;
 TACHYLITE_CONST uint kBakedRows = 2u;
+TACHYLITE_CONST uint kWallRows = 3u;
 TACHYLITE_CONST uint kMaxBaked = 64u;
+TACHYLITE_CONST uint kMaxWalls = 8u;
 
 TACHYLITE_SHARED_END
 #endif

@@ -1,7 +1,8 @@
 // Records of shapes and primitives. All positions are in device space: world space translated by the scene's centre
 // (in double, on the host), so that float resolution lies where the scene is.
 //
-// Leaf info (kBindLeafInfo), one row a leaf: (primitive 0, primitive 1, kind | class << 8 | kLeafEmits | kLeafHides,
+// Leaf info (kBindLeafInfo), one row a leaf: (primitive 0, primitive 1, kind | class << 8 | kLeafEmits | kLeafHides |
+//   kLeafWall,
 //   rotations).
 //   kind: kLeaf... of shared/bvh.h; class: queue of the material.
 // Triangle (kBindTriangles), one row: (vertex 0, vertex 1, vertex 2, shape).
@@ -33,6 +34,7 @@ TACHYLITE_CONST uint kLeafClassShift = 8u;
 TACHYLITE_CONST uint kLeafClassMask = 0xffu;
 TACHYLITE_CONST uint kLeafEmits = 1u << 16u;    // the shape is an area light that rays can find
 TACHYLITE_CONST uint kLeafHides = 1u << 17u;    // the shape has an emitter of any kind: hide_emitters takes it away
+TACHYLITE_CONST uint kLeafWall = 1u << 18u;     // outside of the tree (shared/baked.h)
 TACHYLITE_CONST uint kClassNone = 0xffu;       // absorbs everything: no surface queue
 
 TACHYLITE_SHARED_END

@@ -135,4 +135,26 @@ inline void add_curved(TestScene& s, int count, uint32_t seed) {
   }
 }
 
+/// The parallelogram corner + s a + t b, s and t in [0, 1].
+inline void add_parallelogram(TestScene& scene, const glm::vec3& corner, const glm::vec3& a, const glm::vec3& b) {
+  scene.add(corner, corner + a, corner + a + b);
+  scene.add(corner, corner + a + b, corner + b);
+}
+
+/// Five walls of [-1, 1]^3 (triangles 0 to 9, two each), a lamp of 0.2 below the ceiling, and a thousand small triangles.
+inline TestScene furnished_room() {
+  TestScene scene;
+  const glm::vec3 x(2, 0, 0), y(0, 2, 0), z(0, 0, 2), low(-1);
+  add_parallelogram(scene, low, x, z);
+  add_parallelogram(scene, low + y, z, x);
+  add_parallelogram(scene, low, y, x);
+  add_parallelogram(scene, low, z, y);
+  add_parallelogram(scene, low + x, y, z);
+  add_parallelogram(scene, {-.1f, .99f, -.1f}, {.2f, 0, 0}, {0, 0, .2f});
+  const TestScene soup = triangle_soup(1000, .05, 17);
+  for (const glm::uvec3& t : soup.triangles)
+    scene.add(.3f * soup.vertices[t.x], .3f * soup.vertices[t.y], .3f * soup.vertices[t.z]);
+  return scene;
+}
+
 }  // namespace tachylite::test

@@ -20,12 +20,13 @@ TraceRay fetch_ray(uint i) {
   vec4 o = texelFetch(rays, int(2u * i)), d = texelFetch(rays, int(2u * i + 1u));
   return TraceRay(o.xyz, d.xyz, o.w, floatBitsToUint(d.w), kNoHit);
 }
-void store_hit(uint i, TraceHit hit) { hits[i] = vec4(uintBitsToFloat(hit.id), hit.b1, hit.b2, hit.t); }
+Traversal begin_ray(uint i, const bool any) { return begin_traversal(fetch_ray(i)); }
+void end_ray(uint i, TraceHit hit, const bool any) { hits[i] = vec4(uintBitsToFloat(hit.id), hit.b1, hit.b2, hit.t); }
 
 #ifdef PLAIN
 void main() {
   uint i = gl_GlobalInvocationID.x;
-  if (i < count) store_hit(i, trace_ray(fetch_ray(i), any_hit));
+  if (i < count) end_ray(i, trace_ray(fetch_ray(i), any_hit), any_hit);
 }
 #else
 #include "geometry/trace_rays.glsl"

@@ -36,6 +36,9 @@ class Walker {
     ASSERT_EQ(bvh_.nodes.size() % gpu::kBvhNodeRows, 0u);
     ASSERT_EQ(bvh_.leaves.size(), bvh_.leaf_info.size() * gpu::kBvhLeafRows);
     walk(0, {}, 1);
+    EXPECT_EQ(leaves_.size(), bvh_.first_wall);
+    for (uint32_t leaf = bvh_.first_wall; leaf < bvh_.leaf_info.size(); ++leaf)
+      check_leaf(leaf, gpu::kLeafTriangles, {});
     const BvhStatistics& stats = bvh_.statistics;
     EXPECT_EQ(nodes_.size(), stats.nodes8);
     EXPECT_EQ(leaves_.size(), bvh_.leaf_info.size());
@@ -169,6 +172,12 @@ TEST(BvhStructure, Curved) {
   TestScene s = triangle_soup(300, .1, 6);
   add_curved(s, 300, 7);
   expect_valid(s);
+}
+
+TEST(BvhStructure, Walls) {
+  BvhSettings settings;
+  settings.most_walls = 8;
+  expect_valid(furnished_room(), settings);
 }
 
 TEST(BvhStructure, EmptyInput) {
