@@ -21,6 +21,7 @@ std::vector<Named> named_features(const FeatureSet& f) {
     return std::any_of(f.classes.begin(), f.classes.end(), [&](const MaterialClass& c) { return (c.flags & flag) != 0; });
   };
   return {{f.triangles, "triangles"},
+          {f.walls, "walls outside of the tree"},
           {f.curved, "spheres, disks and cylinders"},
           {f.vertex_normals, "vertex normals"},
           {f.vertex_uv, "texture coordinates"},
@@ -74,6 +75,8 @@ bool FeatureSet::environment() const {
 std::map<uint32_t, uint32_t> FeatureSet::constants() const {
   return {{gpu::kFeatureCurved, curved},
           {gpu::kFeatureTriangles, triangles},
+          {gpu::kFeatureWalls, walls},
+          {gpu::kFeatureFocusers, focusers},
           {gpu::kFeatureVertexNormals, vertex_normals},
           {gpu::kFeatureVertexUv, vertex_uv},
           {gpu::kFeatureClassCount, static_cast<uint32_t>(classes.size())},

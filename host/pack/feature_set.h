@@ -22,7 +22,7 @@ struct MaterialClass {
 /// What a scene needs, computed once from its packed form: decides which kernels exist, what they are compiled for
 /// and which buffers are allocated.
 struct FeatureSet {
-  bool curved = false, triangles = false, vertex_normals = false, vertex_uv = false;
+  bool curved = false, triangles = false, walls = false, vertex_normals = false, vertex_uv = false;
   std::vector<MaterialClass> classes;
   uint32_t camera = gpu::kCameraPerspective, filter = gpu::kFilterBox;
   uint32_t max_depth = 0xffffffffu, roulette_depth = 5, strategy = gpu::kStrategyMis;
@@ -35,6 +35,7 @@ struct FeatureSet {
   uint32_t camera_medium = 0xffffu;
   bool shadow_null = false;
   uint32_t aovs = 0;
+  uint32_t focusers = 0;                      // spheres in RenderParams::focusers
 
   bool has_light(uint32_t kind) const { return (lights >> kind) & 1u; }
   bool area_lights() const;   // some shape emits: the stage shade_emitter exists

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/timer.h"
+#include "pack/find_focusers.h"
 #include "pack/pack_camera.h"
 #include "pack/pack_geometry.h"
 #include "pack/pack_light.h"
@@ -15,6 +16,7 @@
 #include "pack/pack_medium.h"
 #include "pack/pack_texture.h"
 #include "shared/aov.h"
+#include "shared/baked.h"
 #include "shared/geometry.h"
 #include "shared/material.h"
 #include "shared/medium.h"
@@ -97,7 +99,10 @@ void mark_leaves(const Scene& scene, const Geometry& geometry, const std::vector
     if (curved) info.x = (info.x - static_cast<uint32_t>(geometry.triangles.size())) * gpu::kCurvedRows;
   };
   parallel_for(0, out.bvh.leaf_info.size(), kMeshGrain, [&](size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i) mark(out.bvh.leaf_info[i]);
+    for (size_t i = first; i < last; ++i) {
+      mark(out.bvh.leaf_info[i]);
+      if (i >= out.bvh.first_wall) out.bvh.leaf_info[i].z |= gpu::kLeafWall;
+    }
   });
 }
 
@@ -166,7 +171,11 @@ PackedScene pack_scene(const Scene& scene, int sensor_index) {
   // The tree; hits name leaves, so lights are packed after it.
   Timer bvh_timer;
   const BvhInput input{geometry.vertices, geometry.triangles, geometry.curved, geometry.shape_of_triangle};
-  out.bvh = build_bvh8(input);
+  // Rays that pass what they meet know of the tree alone.
+  BvhSettings settings;
+  if (features.media == 0 && !scene.integrator.hide_emitters) settings.most_walls = gpu::kMaxWalls;
+  out.bvh = build_bvh8(input, settings);
+  features.walls = out.bvh.first_wall < out.bvh.leaf_info.size();
   out.bvh_seconds = bvh_timer.seconds();
   PackedLights lights = pack_lights(scene, geometry, out.bvh, textures);
   features.lights = lights.kinds;
@@ -193,6 +202,9 @@ PackedScene pack_scene(const Scene& scene, int sensor_index) {
     const uint32_t triangles = std::holds_alternative<RectangleShape>(shape.kind) ? 2 : 1;  // a primitive
     out.shapes.push_back(uvec4(range.first_primitive, range.primitive_count, gpu::kNoIndex, triangles));
   }
+  const std::vector<vec4> focusers = find_focusers(geometry, class_of_shape, features.classes);
+  std::copy(focusers.begin(), focusers.end(), out.params.focusers);
+  features.focusers = static_cast<uint32_t>(focusers.size());
   mark_leaves(scene, geometry, class_of_shape, shape_emits, out);
   put_vertices(geometry, out);
   put_primitives(geometry, out);

@@ -5,7 +5,10 @@
 #include <bit>
 #include <cmath>
 
+#include <glm/gtc/packing.hpp>
+
 #include "base/parallel.h"
+#include "pack/find_focusers.h"
 #include "pack/float_bits.h"
 #include "shared/guide.h"
 #include "shared/material.h"
@@ -20,27 +23,31 @@ using gpu::kGuideCellBins;
 constexpr double kGuidedShare = 0.85;
 // Mean photons in a cell that count as much as the uniform distribution.
 constexpr double kUniformPhotons = 16;
-// Photons are spread over the bins beside their own, by this for a side and its square for a corner.
-constexpr double kSpread = 0.2;
-constexpr double kCellsAcross = 16;  // the film, at least
+// The same of a focuser's table.
+constexpr double kFocusedShare = 0.95, kUniformOfFocuser = 4;
+// Photons are spread over the bins around their own: weights by distance along a side; of two sides their product. What
+// reaches a cell from elsewhere than focusers changes slowly with direction.
+constexpr std::array<double, 3> kSharp = {1, 0.2, 0}, kSmooth = {1, 0.6, 0.1};
+constexpr double kCellsAcross = 8;  // the film, at least
 constexpr int kBins = gpu::kGuideBins;
 static_assert(kBins == 1 << gpu::kGuideLevels && (kGuideCellBins - 1) / 3 <= gpu::kGuideDensities);
 
 using Densities = std::array<double, kGuideCellBins>;  // mean 1
 
 // Of each bin its mean with its neighbours; sides and corners of the square have fewer.
-Densities spread(std::span<const uint32_t> bins) {
+Densities spread(std::span<const uint32_t> bins, const std::array<double, 3>& weights) {
+  constexpr int kReach = 2;
   Densities mean{};
   for (int y = 0; y < kBins; ++y)
     for (int x = 0; x < kBins; ++x) {
-      double sum = 0, weights = 0;
-      for (int v = std::max(y - 1, 0); v <= std::min(y + 1, kBins - 1); ++v)
-        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, kBins - 1); ++u) {
-          const double weight = (u == x ? 1 : kSpread) * (v == y ? 1 : kSpread);
+      double sum = 0, all = 0;
+      for (int v = std::max(y - kReach, 0); v <= std::min(y + kReach, kBins - 1); ++v)
+        for (int u = std::max(x - kReach, 0); u <= std::min(x + kReach, kBins - 1); ++u) {
+          const double weight = weights[static_cast<size_t>(std::abs(u - x))] * weights[static_cast<size_t>(std::abs(v - y))];
           sum += weight * bins[static_cast<size_t>(v * kBins + u)];
-          weights += weight;
+          all += weight;
         }
-      mean[static_cast<size_t>(y * kBins + x)] = sum / weights;
+      mean[static_cast<size_t>(y * kBins + x)] = sum / all;
     }
   return mean;
 }
@@ -79,6 +86,46 @@ void build_tree(const Densities& density, uint32_t x, uint32_t y, uint32_t edge,
                  here * 4 * 0x1p-32 * (i == 0 ? p : 0x10000 - p) * (j == 0 ? q[i] : 0x10000 - q[i]), out);
 }
 
+double photons_in(std::span<const uint32_t> bins) {
+  uint64_t flux = 0;
+  for (const uint32_t f : bins) flux += f;
+  return static_cast<double>(flux) / gpu::kPhotonUnit;
+}
+
+// A table whose samples follow the photons by `share` and are uniform else.
+void build_table(std::span<const uint32_t> bins, double share, const std::array<double, 3>& weights,
+                 std::span<glm::uvec2> out) {
+  Densities density;
+  density.fill(1);
+  if (share > 0) {
+    density = spread(bins, weights);
+    const double sum = sum_of(density, 0, 0, kBins);
+    for (double& d : density) d = 1 - share + share * kGuideCellBins * d / sum;
+  }
+  build_tree(density, 0, 0, kBins, 0, 1, out);
+}
+
+// All tables of a cell. Each has the share of the samples that its light has of all light, but for the share that is
+// uniform, which is the first table's.
+void build_cell(std::span<const uint32_t> flux, std::span<glm::uvec2> out) {
+  const size_t tables = flux.size() / kGuideCellBins;
+  const auto table_of = [](auto cell, size_t table) { return cell.subspan(table * kGuideCellBins, kGuideCellBins); };
+  std::array<double, 1 + gpu::kMaxFocusers> photons{};
+  double all = 0;
+  for (size_t t = 0; t < tables; ++t) all += photons[t] = photons_in(table_of(flux, t));
+  const double guided = kGuidedShare * all / (all + kUniformPhotons);
+  glm::vec4 shares(0, 0, 0, 1 - guided);
+  for (size_t t = 1; t < tables; ++t) {
+    if (photons[t] == 0) continue;  // no samples
+    shares[static_cast<int>(t) - 1] = static_cast<float>(guided * photons[t] / all);
+    build_table(table_of(flux, t), kFocusedShare * photons[t] / (photons[t] + kUniformOfFocuser), kSharp,
+                table_of(out, t));
+  }
+  const double rest = all > 0 ? guided * photons[0] / all : 0;
+  build_table(table_of(flux, 0), rest / (1 - guided + rest), tables > 1 ? kSmooth : kSharp, table_of(out, 0));
+  out[gpu::kGuideShares] = {glm::packUnorm2x16({shares.x, shares.y}), glm::packUnorm2x16({shares.z, shares.w})};
+}
+
 }  // namespace
 
 bool can_be_guided(const MaterialClass& c) {
@@ -88,13 +135,10 @@ bool can_be_guided(const MaterialClass& c) {
 bool may_be_guided(const PackedScene& scene, Guiding guiding) {
   const FeatureSet& f = scene.features;
   constexpr uint32_t kAreaLights = (2u << gpu::kLightCylinder) - 1, kKinds = (2u << gpu::kLightDirectionalArea) - 1;
-  constexpr uint32_t kFocus = 1u << gpu::kBsdfConductor | 1u << gpu::kBsdfRoughConductor |
-                              1u << gpu::kBsdfDielectric | 1u << gpu::kBsdfRoughDielectric;
   if (guiding == Guiding::kOff || scene.emission.empty() || (f.lights & kKinds & ~kAreaLights) != 0) return false;
   if (f.media != 0 || f.max_depth <= 2 || f.strategy != gpu::kStrategyMis) return false;
-  const auto focuses = [](const MaterialClass& c) { return (c.bsdfs & kFocus) != 0; };
   return std::any_of(f.classes.begin(), f.classes.end(), can_be_guided) &&
-         (guiding == Guiding::kOn || std::any_of(f.classes.begin(), f.classes.end(), focuses));
+         (guiding == Guiding::kOn || std::any_of(f.classes.begin(), f.classes.end(), can_focus));
 }
 
 uint32_t photon_count(const gpu::RenderParams& params) {
@@ -113,19 +157,12 @@ bool guide_pays(std::span<const uint32_t> flux, uint32_t caustics) {
   return all > 0 && caustics / gpu::kCausticUnit >= kCausticShare * all / gpu::kPhotonUnit;
 }
 
-std::vector<glm::uvec2> build_guide(std::span<const uint32_t> flux) {
+std::vector<glm::uvec2> build_guide(std::span<const uint32_t> flux, uint32_t focusers) {
   std::vector<glm::uvec2> guide(flux.size());
-  parallel_for(0, flux.size() / kGuideCellBins, 64, [&](size_t first, size_t last) {
-    for (size_t cell = first; cell < last; ++cell) {
-      const auto bins = flux.subspan(cell * kGuideCellBins, kGuideCellBins);
-      double photons = 0;
-      for (const uint32_t f : bins) photons += f / gpu::kPhotonUnit;
-      Densities density = spread(bins);
-      const double sum = sum_of(density, 0, 0, kBins);
-      const double share = kGuidedShare * photons / (photons + kUniformPhotons);
-      for (double& d : density) d = 1 - share + (sum > 0 ? share * kGuideCellBins * d / sum : 0);
-      build_tree(density, 0, 0, kBins, 0, 1, std::span(guide).subspan(cell * kGuideCellBins, kGuideCellBins));
-    }
+  const size_t cell_bins = size_t{kGuideCellBins} * (1 + focusers);
+  parallel_for(0, flux.size() / cell_bins, 64, [&](size_t first, size_t last) {
+    for (size_t cell = first; cell < last; ++cell)
+      build_cell(flux.subspan(cell * cell_bins, cell_bins), std::span(guide).subspan(cell * cell_bins, cell_bins));
   });
   return guide;
 }

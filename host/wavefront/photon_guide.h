@@ -33,7 +33,7 @@ constexpr double kCausticShare = 0.01;
 bool guide_pays(std::span<const uint32_t> flux, uint32_t caustics);
 
 /// kBindGuide of shared/guide.h from what photons have left in kBindPhotons: a mixture of their distribution and of the
-/// uniform one, which has the more weight the fewer photons there are.
-std::vector<glm::uvec2> build_guide(std::span<const uint32_t> flux);
+/// uniform one, which has the more weight the fewer photons there are. Each cell has 1 + focusers tables.
+std::vector<glm::uvec2> build_guide(std::span<const uint32_t> flux, uint32_t focusers);
 
 }  // namespace tachylite

@@ -29,7 +29,7 @@ std::vector<BufferPlan> plan_buffers(const PackedScene& s, const gpu::RenderPara
   const bool media = s.features.media != 0, lit = s.features.selection != gpu::kSelectNone;
   const auto& baked = plan.baked;
   const uint64_t film_rows = uint64_t{plan.pixels} * plan.blocks;
-  const uint64_t bins = plan.may_guide ? uint64_t{gpu::kGuideCells} * gpu::kGuideCellBins : 0;
+  const uint64_t bins = plan.may_guide ? uint64_t{gpu::kGuideCells} * gpu::kGuideCellBins * (1 + s.features.focusers) : 0;
   // What only the stages need.
   const uint64_t slots = baked ? 0 : plan.capacity;
   const uint64_t path_bytes = slots * sizeof(glm::vec4) * (media ? gpu::kPathRowsMedia : gpu::kPathRowsBase);
@@ -51,7 +51,7 @@ std::vector<BufferPlan> plan_buffers(const PackedScene& s, const gpu::RenderPara
       scene_buffer("normals", gpu::kBindNormals, kFloat4, s.normals),
       scene_buffer("curved shapes", gpu::kBindCurved, kFloat4, staged_f(s.curved)),
       scene_buffer("shapes", gpu::kBindShapes, kUint4, staged_u(s.shapes)),
-      scene_buffer("baked primitives", gpu::kBindBaked, kFloat4, baked ? baked->rows : no_rows_f),
+      scene_buffer("baked primitives", gpu::kBindBaked, kFloat4, baked ? baked->rows : plan.walls.rows),
       scene_buffer("mesh attributes", gpu::kBindAttributes, kFloat4, s.attributes),
       scene_buffer("materials", gpu::kBindMaterials, kUint4, s.materials),
       scene_buffer("textures", gpu::kBindTextures, kUint4, s.textures),

@@ -62,6 +62,7 @@ std::vector<glm::uvec2> consecutive_pixels(const WaveParams& wave) {
 
 WavePlan::WavePlan(const PackedScene& scene, const RenderOptions& options)
     : baked(choose_baked(scene, options)), may_guide(!baked && may_be_guided(scene, options.guiding)) {
+  if (!baked) walls = bake_walls(scene);
   capacity = capacity_for(scene.params, options, may_guide ? photon_count(scene.params) : 0);
   const uint32_t all_pixels = scene.params.tile_count * kTilePixels;
   if (baked) {
@@ -94,7 +95,7 @@ WaveTracer::WaveTracer(vulkan::Device& device, const PackedScene& scene, const R
   // Drivers compile a kernel when it is first dispatched: that goes on while the next is made.
   const KernelSource source{device_, *table_, features_, options, params_.end_sample,
                             [this](const vulkan::Kernel& kernel) { touch(kernel); }};
-  kernels_ = plan_.baked ? build_fused_kernel(source, *plan_.baked) : build_stages(source, plan_.may_guide);
+  kernels_ = plan_.baked ? build_fused_kernel(source, *plan_.baked) : build_stages(source, plan_.walls, plan_.may_guide);
   if (plan_.may_guide) {
     const std::vector<glm::uvec2> guide = learn_guide(source);
     if (!guide.empty())
@@ -233,7 +234,7 @@ std::vector<glm::uvec2> WaveTracer::learn_guide(const KernelSource& source) {
   const std::vector<uint32_t> flux = photons_->download_all<uint32_t>();
   const auto* words = static_cast<const uint32_t*>(counters_->mapped());
   std::vector<glm::uvec2> guide;
-  if (source.options.guiding == Guiding::kOn || guide_pays(flux, words[gpu::kCounterCaustics])) guide = build_guide(flux);
+  if (source.options.guiding == Guiding::kOn || guide_pays(flux, words[gpu::kCounterCaustics])) guide = build_guide(flux, features_.focusers);
   guide_seconds_ = timer.seconds();
   return guide;
 }

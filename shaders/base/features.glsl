@@ -33,6 +33,8 @@ layout(constant_id = kFeatureCameraMedium) const uint camera_medium = 0xffffu;
 layout(constant_id = kFeatureTriangles) const bool has_triangles = true;
 layout(constant_id = kFeaturePixelList) const bool has_pixel_list = false;
 layout(constant_id = kFeatureGuide) const bool has_guide = false;
+layout(constant_id = kFeatureWalls) const bool has_walls = false;
+layout(constant_id = kFeatureFocusers) const uint focuser_count = 0u;
 layout(constant_id = kFeaturePhotons) const bool is_photon_pass = false;
 
 bool has_bsdf(uint type) { return (bsdf_types & (1u << type)) != 0u; }

@@ -71,10 +71,18 @@ void add_to_counter(uint counter, uint count) {
   if (subgroupElect() && sum > 0u) atomicAdd(counters[counter], sum);
 }
 
+// n / d for n < 2^24 and 0 < d < 2^24: lavapipe divides integers lane by lane.
+uint divide(uint n, uint d) {
+  uint q = uint(float(n) / float(d));
+  int rest = int(n - q * d);
+  return rest < 0 ? q - 1u : (rest >= int(d) ? q + 1u : q);
+}
+
 // Pixel of the image for a pixel in tile order; false outside.
 bool pixel_of(uint tile_pixel, out uvec2 pixel) {
   uint tile = tile_pixel / (kTileSize * kTileSize), inner = tile_pixel % (kTileSize * kTileSize);
-  pixel = uvec2(tile % params.tiles_x, tile / params.tiles_x) * kTileSize +
+  uint row = divide(tile, params.tiles_x);
+  pixel = uvec2(tile - row * params.tiles_x, row) * kTileSize +
           uvec2(inner % kTileSize, inner / kTileSize);
   return pixel.x < params.width && pixel.y < params.height;
 }
@@ -91,10 +99,13 @@ uint wave_pixel(uint i) { return has_pixel_list ? texelFetch(pixel_list, int(i))
 uint wave_block(uint i) { return has_pixel_list ? texelFetch(pixel_list, int(i)).y : wave.first_block; }
 
 // Pixel (in tile order) and sample index of a path slot.
-uint slot_tile_pixel(uint slot) { return wave_pixel((slot / kBlockSamples) % wave.pixel_count); }
-uint slot_sample(uint slot) {
+uint slot_tile_pixel(uint slot) {
   uint i = slot / kBlockSamples;
-  return (wave_block(i % wave.pixel_count) + i / wave.pixel_count) * kBlockSamples + slot % kBlockSamples;
+  return wave_pixel(i - divide(i, wave.pixel_count) * wave.pixel_count);
+}
+uint slot_sample(uint slot) {
+  uint i = slot / kBlockSamples, block = divide(i, wave.pixel_count);
+  return (wave_block(i - block * wave.pixel_count) + block) * kBlockSamples + slot % kBlockSamples;
 }
 
 #endif

@@ -1,10 +1,13 @@
-// Starts photons: one a lane, from a light that is chosen by its power, uniform over its area and by the cosine. Only
-// the guide learns from them, so their density may be approximate (elliptic shapes, textures).
+// Starts photons: one a lane, from a light that is chosen by its power and uniform over its area, one half by the cosine
+// and one half to the focusers (shared/guide.h), which few find else: Jensen and Christensen 1995, "Photon Maps in
+// Bidirectional Monte Carlo Ray Tracing of Complex Objects", section 4, aim them so with projection maps. Only the guide
+// learns from photons, so their density may be approximate (elliptic shapes, textures).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
 #include "base/queues.glsl"
 #include "light/light.glsl"
+#include "path/focus_cone.glsl"
 #include "path/path_sampler.glsl"
 layout(set = 0, binding = kBindEmission) uniform samplerBuffer emission;
 
@@ -18,6 +21,25 @@ uint choose_emitter(float u) {
   return first;
 }
 
+// A direction from p on a light with normal n; flux: that by the cosine over that of the sample.
+vec3 sample_photon_direction(vec3 p, vec3 n, vec2 u, float u_choice, out float flux) {
+  Frame frame = frame_from_normal(n);
+  vec3 d = to_world(frame, sample_cosine_hemisphere(u));
+  const float share = 0.5 / float(max(focuser_count, 1u));
+  for (uint k = 0u; k < focuser_count; ++k)
+    if (sees_focuser(params.focusers[k], p) && u_choice >= share * float(k) && u_choice < share * float(k + 1u))
+      d = focus_direction(focus_cone(params.focusers[k], p, frame.s), u);
+  float by_cosine = pdf_cosine_hemisphere(dot(n, d)), rest = 1.0, pdf = 0.0;
+  for (uint k = 0u; k < focuser_count; ++k) {
+    if (!sees_focuser(params.focusers[k], p)) continue;
+    FocusCone cone = focus_cone(params.focusers[k], p, frame.s);
+    if (is_in_square(focus_numbers(cone, d))) pdf += share * pdf_focus_cone(cone);
+    rest -= share;
+  }
+  flux = by_cosine > 0.0 ? by_cosine / (rest * by_cosine + pdf) : 0.0;
+  return d;
+}
+
 void main() {
   uint slot = gl_GlobalInvocationID.x;
   bool owned = slot < wave.pixel_count * wave.block_count * kBlockSamples;
@@ -28,7 +50,8 @@ void main() {
   pixel_of(slot_tile_pixel(slot), pixel);
   PathSampler path_sampler = begin_path_sampler(film_pixel(pixel), slot_sample(slot), params.seed);
   vec4 u = camera_sample(path_sampler);
-  uint light = kLightRows * choose_emitter(lens_sample(path_sampler).x);
+  vec2 lens = lens_sample(path_sampler);
+  uint light = kLightRows * choose_emitter(lens.x);
   vec4 row0 = load_light(light), row1 = load_light(light + 1u), row2 = load_light(light + 2u);
   vec4 row3 = load_light(light + 3u), row4 = load_light(light + 4u);
   uint kind = floatBitsToUint(row0.w) & kLightKindMask;
@@ -56,11 +79,12 @@ void main() {
     p += cs.x * row2.xyz + cs.y * row3.xyz + u.y * row4.xyz;
     n = normalize(cross(cs.x * row3.xyz - cs.y * row2.xyz, row4.xyz)) * (row3.w != 0.0 ? -1.0 : 1.0);
   }
-  vec3 d = to_world(frame_from_normal(n), sample_cosine_hemisphere(u.zw));
+  float flux;
+  vec3 d = sample_photon_direction(p, n, u.zw, lens.y, flux);
   p += n * (1e-5 * max_component(abs(p)));
   store_path(kPathOrigin, slot, vec4(p, uintBitsToFloat(leaving)));
   store_path(kPathDirection, slot, vec4(d, 0.0));
-  store_path(kPathBeta, slot, vec4(row0.xyz * (3.0 / max(row0.x + row0.y + row0.z, 1e-30)), 1.0));
+  store_path(kPathBeta, slot, vec4(row0.xyz * (3.0 * flux / max(row0.x + row0.y + row0.z, 1e-30)), 1.0));
   store_path(kPathRadiance, slot, vec4(0.0));
   store_path(kPathHit, slot, vec4(0.0, 0.0, 0.0, infinity()));
 }

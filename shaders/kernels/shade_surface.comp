@@ -16,7 +16,7 @@ void main() {
   vec3 d = direction.xyz;
   vec4 beta = load_path(kPathBeta, slot);
   vec4 hit = load_path(kPathHit, slot);
-  vec3 o = has_curved ? load_path(kPathOrigin, slot).xyz : vec3(0.0);
+  vec3 o = has_curved || is_photon_pass ? load_path(kPathOrigin, slot).xyz : vec3(0.0);
   Interaction it = load_interaction(hit, o, d);
   SurfaceBsdf bsdf = load_bsdf(it, -d);
   uvec2 pixel;
@@ -29,7 +29,7 @@ void main() {
 
   // What light samples find anyhow is not learned.
   IF_GUIDED(if (is_photon_pass)
-    deposit_photon(live && edges > 1u, guide_cell(it.p, bsdf.leaf.n), to_leaf(bsdf.leaf, -d),
+    deposit_photon(live && edges > 1u, find_guide_cell(it.p, bsdf.leaf.n), o, d, to_leaf(bsdf.leaf, -d),
                    (beta.x + beta.y + beta.z) * (1.0 / 3.0), direction.w == 0.0 || direction.w > kFocusedPdf);)
 
   float selection_key = 0.0;

@@ -23,12 +23,13 @@ bool choose_half(inout float u, inout float p) {
   return upper;
 }
 
-GuidedNumbers guide_numbers(uint cell, vec2 u) {
+// table: its first bin.
+GuidedNumbers guide_numbers(uint table, vec2 u) {
   uvec2 bin = uvec2(0u);
   uint node = 0u;
   float density = 1.0;
   for (uint level = 0u; level < kGuideLevels; ++level) {
-    uvec2 entry = texelFetch(guide_table, int(cell + node)).xy;
+    uvec2 entry = texelFetch(guide_table, int(table + node)).xy;
     vec2 p = vec2(float(entry.x), 0.0) * exp2(-16.0);
     bool right = choose_half(u.x, p.x);
     p.y = float(right ? entry.y >> 16u : entry.y & 0xffffu) * exp2(-16.0);
@@ -42,6 +43,11 @@ GuidedNumbers guide_numbers(uint cell, vec2 u) {
   return GuidedNumbers((vec2(bin) + u) / float(kGuideBins), density);
 }
 
+uint bin_of_numbers(vec2 u) {
+  uvec2 bin = uvec2(clamp(u * float(kGuideBins), 0.0, float(kGuideBins) - 1.0));
+  return kGuideBins * bin.y + bin.x;
+}
+
 // The bin of a local direction: sample_cosine_hemisphere undone.
 uint guide_bin(vec3 w) {
   vec2 a = abs(w.xy);
@@ -51,15 +57,19 @@ uint guide_bin(vec3 w) {
   // The map of the square has r, signed, on the longer axis, and the angle times its sign on the other.
   vec2 square = wide ? vec2(r, across) : vec2(across, r);
   square = vec2(w.x < 0.0 ? -square.x : square.x, w.y < 0.0 ? -square.y : square.y);
-  uvec2 bin = uvec2(clamp((0.5 * square + 0.5) * float(kGuideBins), 0.0, float(kGuideBins) - 1.0));
-  return kGuideBins * bin.y + bin.x;
+  return bin_of_numbers(0.5 * square + 0.5);
 }
 
-// Density of guide_numbers w.r.t. area of the square at those that give the local direction w, above the surface.
-float guide_density(uint cell, vec3 w) {
-  uint bin = guide_bin(w);
-  uvec2 pair = texelFetch(guide_table, int(cell + kGuideDensities + (bin >> 1u))).xy;
-  return w.z > 0.0 ? uintBitsToFloat((bin & 1u) == 0u ? pair.x : pair.y) : 1.0;
+// Density of guide_numbers w.r.t. area of the square in a bin.
+float table_density(uint table, uint bin) {
+  uvec2 pair = texelFetch(guide_table, int(table + kGuideDensities + (bin >> 1u))).xy;
+  return uintBitsToFloat((bin & 1u) == 0u ? pair.x : pair.y);
+}
+
+// The same at the numbers that give the local direction w, above the surface.
+float guide_density(uint table, vec3 w) {
+  float density = table_density(table, guide_bin(w));
+  return w.z > 0.0 ? density : 1.0;
 }
 
 #endif

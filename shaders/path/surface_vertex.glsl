@@ -14,6 +14,22 @@
 #if defined(BSDF_SINGLE_LEAF) && BSDF_TYPES == 2 && !defined(BAKED_COUNT)
 #define IF_GUIDED(code) if (has_guide) { code }
 #include "path/guide.glsl"
+
+// density: of all ways to sample the direction, w.r.t. that of the bsdf.
+BsdfSample sample_guided(GuideCell cell, SurfaceBsdf bsdf, vec2 u, out float density) {
+  uint focuser = choose_focuser(cell.shares, u.x);
+  bool focused = focuser < focuser_count;
+  u = guide_numbers(focused ? focuser_table(cell, focuser) : cell.first, u).u;
+  BsdfSample s = sample_bsdf(bsdf, u, 0.0);
+  if (focused) {
+    s.wi = focus_direction(focus_cone(cell, focuser), u);
+    BsdfEval eval = eval_bsdf(bsdf, s.wi);
+    s.weight = eval.pdf > 0.0 ? eval.f / eval.pdf : vec3(0.0);
+    s.pdf = eval.pdf;
+  }
+  density = s.pdf > 0.0 ? guided_pdf(cell, s.wi, to_leaf(bsdf.leaf, s.wi), s.pdf) / s.pdf : 1.0;
+  return s;
+}
 #else
 #define IF_GUIDED(code)
 #endif
@@ -55,7 +71,7 @@ ShadowRay sample_direct_light(Interaction it, vec3 wo, SurfaceBsdf bsdf, vec3 be
                               out float selection_key) {
   LightSample light = sample_light(it.p, light_side_normal(it, wo), u, u_select, selection_key);
   BsdfEval eval = eval_bsdf(bsdf, light.wi);
-  IF_GUIDED(eval.pdf *= guide_density(guide_cell(it.p, bsdf.leaf.n), to_leaf(bsdf.leaf, light.wi));)
+  IF_GUIDED(eval.pdf *= find_guide_cell(it.p, bsdf.leaf.n).shares.w;)
   float weight = light.delta || strategy == kStrategyEmitter ? 1.0 : mis_weight(light.pdf, eval.pdf);
   ShadowRay ray;
   ray.contribution = beta * eval.f * light.radiance * (weight / light.pdf);
@@ -73,13 +89,16 @@ bool needs_choices() { return has_roulette() || light_selection > kSelectSingle 
 // The next ray of a path with `edges` edges. u: direction; u_lobe, u_roulette: choices.
 NextRay sample_next_ray(Interaction it, vec3 wo, SurfaceBsdf bsdf, vec4 beta, uint edges, vec2 u, float u_lobe,
                         float u_roulette) {
-  float density = 1.0;  // of guiding, w.r.t. that of the bsdf
+  float density = 1.0, mis_density = 1.0;  // of guiding, w.r.t. that of the bsdf; what the weights of MIS go by
+  bool guided = false;
+  BsdfSample s;
   IF_GUIDED(if (!is_photon_pass) {
-    GuidedNumbers guided = guide_numbers(guide_cell(it.p, bsdf.leaf.n), u);
-    u = guided.u;
-    density = guided.density;
+    GuideCell cell = find_guide_cell(it.p, bsdf.leaf.n);
+    s = sample_guided(cell, bsdf, u, density);
+    mis_density = cell.shares.w;
+    guided = true;
   })
-  BsdfSample s = sample_bsdf(bsdf, u, u_lobe);
+  if (!guided) s = sample_bsdf(bsdf, u, u_lobe);
   NextRay ray;
   // Roulette is played as without the guide: where that sends many paths, they would end too soon.
   ray.beta = vec4(beta.xyz * s.weight / density, beta.w * s.eta * s.eta * density);
@@ -91,7 +110,7 @@ NextRay sample_next_ray(Interaction it, vec3 wo, SurfaceBsdf bsdf, vec4 beta, ui
   }
   ray.o = offset_origin(it, wo, s.wi);
   ray.d = s.wi;
-  ray.pdf = s.pdf * density;
+  ray.pdf = s.pdf * mis_density;
   ray.is_null = (s.flags & kLobeNull) != 0u;
   return ray;
 }

@@ -40,6 +40,8 @@ TACHYLITE_CONST uint kFeatureTriangles = 24u;     // bool
 TACHYLITE_CONST uint kFeaturePixelList = 25u;     // bool: adaptive sampling, a wave's pixels are listed
 TACHYLITE_CONST uint kFeatureGuide = 26u;         // bool: directions on this class of diffuse surfaces are guided
 TACHYLITE_CONST uint kFeaturePhotons = 27u;       // bool: the paths are photons that the guide learns from
+TACHYLITE_CONST uint kFeatureWalls = 28u;         // bool: large parallelograms outside of the tree
+TACHYLITE_CONST uint kFeatureFocusers = 29u;      // uint: spheres of the guide
 TACHYLITE_CONST uint kFeatureCameraMedium = 30u;  // uint: the medium that the camera is in
 
 TACHYLITE_CONST uint kCameraPerspective = 0u;

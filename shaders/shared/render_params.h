@@ -35,7 +35,7 @@ struct RenderParams {
   uint aov_stride;          // of the rows of kBindAov: pixels times blocks of a wave
   uint light_count;         // records in kBindLights that photons may leave from
   float guide_scale;        // edge of a guide's cell by its distance from the camera, at most
-  uint unused, unused2, unused3, unused4;  // the size is a multiple of 16 bytes, as that of the kernels' block
+  vec4 focusers[3];         // kMaxFocusers spheres of the guide: centre (device space), radius
 };
 
 struct WaveParams {
