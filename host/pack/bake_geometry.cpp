@@ -22,6 +22,7 @@ using glm::vec3;
 constexpr uint32_t kLongestPath = 512;  // edges; 64 samples of a lane stay below 65535 iterations
 constexpr int kMostRough = 2;           // rough types of bsdf: each is evaluated for every vertex
 constexpr double kOverlap = 1e-6;       // by which faces are widened: rounding must not open their seams
+constexpr double kWallTolerance = 1e-7;  // of boxes: rays leave the walls' triangles, not the box (kGammaWall)
 constexpr int kLeastFaces = 4;          // of a box: it costs as much as three of its faces alone
 
 bool paths_are_short(const FeatureSet& f) { return std::min(f.max_depth, f.roulette_depth) <= kLongestPath; }
@@ -66,6 +67,8 @@ bool fits(const PackedScene& scene) {
 // shares the dot products with it.
 class UnitVectors {
  public:
+  explicit UnitVectors(double tolerance) : tolerance_(tolerance) {}
+
   /// v, or an equal one seen before; negated where its first component that is not zero was negative.
   vec3 canonical(dvec3 v, double& sign) {
     v = glm::normalize(v);
@@ -77,7 +80,7 @@ class UnitVectors {
     }
     v *= sign;
     for (const vec3& seen : seen_)
-      if (glm::length(dvec3(seen) - v) < 2e-7) return seen;
+      if (glm::length(dvec3(seen) - v) < tolerance_) return seen;
     for (int axis = 0; axis < 3; ++axis)
       if (std::abs(v[axis]) < 1e-9) v[axis] = 0;
     seen_.push_back(vec3(v));
@@ -85,13 +88,15 @@ class UnitVectors {
   }
 
  private:
+  double tolerance_;
   std::vector<vec3> seen_;
 };
 
 class Baker {
  public:
   /// walls: of a scene that has a tree, too.
-  Baker(const PackedScene& scene, bool walls) : scene_(scene), walls_(walls), rows_(walls ? gpu::kWallRows : gpu::kBakedRows) {
+  Baker(const PackedScene& scene, bool walls)
+      : scene_(scene), walls_(walls), rows_(walls ? gpu::kWallRows : gpu::kBakedRows), units_(walls ? 0 : 2e-7) {
     extent_ = glm::max(glm::abs(dvec3(scene.bvh.box_min)), glm::abs(dvec3(scene.bvh.box_max)));
   }
 
@@ -133,7 +138,7 @@ class Baker {
         parallelograms.push_back(faces_[i].points);
       }
     const double extent = glm::length(extent_);
-    const std::vector<Box> boxes = find_boxes(parallelograms, kLeastFaces, kOverlap * extent);
+    const std::vector<Box> boxes = find_boxes(parallelograms, kLeastFaces, (walls_ ? kWallTolerance : kOverlap) * extent);
 
     std::vector<bool> done(faces_.size(), false);
     for (const Box& box : boxes) {
@@ -213,7 +218,8 @@ class Baker {
     const dvec3 unit(units_.canonical(normal, sign));
     const bool flip = (shape(face.primitive).z & gpu::kShapeFlipNormals) != 0;
     const dvec3 n = unit * (flip ? -sign : sign);
-    put_rows(glm::vec4(vec3(n), static_cast<float>(-glm::dot(n, centre))), face.primitive, shape(face.primitive), face.hit);
+    put_rows(glm::vec4(vec3(n), static_cast<float>(-glm::dot(n, centre))), face.primitive, shape(face.primitive),
+             face.hit);
   }
 
   void put_wall_rows(const Face& face) {

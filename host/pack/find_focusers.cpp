@@ -24,8 +24,9 @@ Sphere around(const Geometry& geometry, const ShapeGeometry& shape) {
     const glm::dmat4& m = curved.object_to_world;
     if (curved.kind == gpu::kLeafSphere)
       return {dvec3(m[3]), std::max({glm::length(dvec3(m[0])), glm::length(dvec3(m[1])), glm::length(dvec3(m[2]))})};
-    for (int k = 0; k < 8; ++k)  // of the box of the unit disk or cylinder
-      points.emplace_back(m * glm::dvec4(k & 1 ? 1 : -1, k & 2 ? 1 : -1, curved.kind == gpu::kLeafCylinder && k & 4 ? 1 : 0, 1));
+    const double height = curved.kind == gpu::kLeafCylinder ? 1 : 0;  // of the box of the unit shape
+    for (int k = 0; k < 8; ++k)
+      points.emplace_back(m * glm::dvec4(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? height : 0, 1));
   }
   dvec3 low = points[0], high = points[0];
   for (const dvec3& p : points) {
@@ -68,7 +69,8 @@ std::vector<glm::vec4> find_focusers(const Geometry& geometry, const std::vector
     const Sphere sphere = around(geometry, geometry.shapes[s]);
     if (fits(sphere)) spheres.push_back(sphere);
   }
-  std::stable_sort(spheres.begin(), spheres.end(), [](const Sphere& a, const Sphere& b) { return a.radius > b.radius; });
+  std::stable_sort(spheres.begin(), spheres.end(),
+                   [](const Sphere& a, const Sphere& b) { return a.radius > b.radius; });
   if (spheres.size() > kMostShapes) spheres.resize(kMostShapes);
   while (spheres.size() > gpu::kMaxFocusers) merge_nearest(spheres);
   std::erase_if(spheres, [&](const Sphere& s) { return !fits(s); });

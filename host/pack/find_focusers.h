@@ -17,8 +17,8 @@ constexpr bool can_focus(const MaterialClass& c) {
                      1u << gpu::kBsdfRoughDielectric)) != 0;
 }
 
-/// Spheres (centre, radius; device space) around shapes that can_focus(), at most kMaxFocusers: those that are nearest to
-/// each other share one. Shapes that nearly fill the scene are left out, and all but the largest of very many.
+/// Spheres (centre, radius; device space) around shapes that can_focus(), at most kMaxFocusers: those that are nearest
+/// to each other share one. Shapes that nearly fill the scene are left out, and all but the largest of very many.
 /// class_of_shape: index into `classes`, or kClassNone.
 std::vector<glm::vec4> find_focusers(const Geometry& geometry, const std::vector<uint32_t>& class_of_shape,
                                      const std::vector<MaterialClass>& classes);

@@ -43,7 +43,8 @@ Densities spread(std::span<const uint32_t> bins, const std::array<double, 3>& we
       double sum = 0, all = 0;
       for (int v = std::max(y - kReach, 0); v <= std::min(y + kReach, kBins - 1); ++v)
         for (int u = std::max(x - kReach, 0); u <= std::min(x + kReach, kBins - 1); ++u) {
-          const double weight = weights[static_cast<size_t>(std::abs(u - x))] * weights[static_cast<size_t>(std::abs(v - y))];
+          const double weight =
+              weights[static_cast<size_t>(std::abs(u - x))] * weights[static_cast<size_t>(std::abs(v - y))];
           sum += weight * bins[static_cast<size_t>(v * kBins + u)];
           all += weight;
         }

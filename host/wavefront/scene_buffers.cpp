@@ -29,7 +29,8 @@ std::vector<BufferPlan> plan_buffers(const PackedScene& s, const gpu::RenderPara
   const bool media = s.features.media != 0, lit = s.features.selection != gpu::kSelectNone;
   const auto& baked = plan.baked;
   const uint64_t film_rows = uint64_t{plan.pixels} * plan.blocks;
-  const uint64_t bins = plan.may_guide ? uint64_t{gpu::kGuideCells} * gpu::kGuideCellBins * (1 + s.features.focusers) : 0;
+  const uint64_t tables = plan.may_guide ? uint64_t{gpu::kGuideCells} * (1 + s.features.focusers) : 0;
+  const uint64_t bins = tables * gpu::kGuideCellBins;
   // What only the stages need.
   const uint64_t slots = baked ? 0 : plan.capacity;
   const uint64_t path_bytes = slots * sizeof(glm::vec4) * (media ? gpu::kPathRowsMedia : gpu::kPathRowsBase);

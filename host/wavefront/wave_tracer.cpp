@@ -95,7 +95,8 @@ WaveTracer::WaveTracer(vulkan::Device& device, const PackedScene& scene, const R
   // Drivers compile a kernel when it is first dispatched: that goes on while the next is made.
   const KernelSource source{device_, *table_, features_, options, params_.end_sample,
                             [this](const vulkan::Kernel& kernel) { touch(kernel); }};
-  kernels_ = plan_.baked ? build_fused_kernel(source, *plan_.baked) : build_stages(source, plan_.walls, plan_.may_guide);
+  kernels_ = plan_.baked ? build_fused_kernel(source, *plan_.baked)
+                         : build_stages(source, plan_.walls, plan_.may_guide);
   if (plan_.may_guide) {
     const std::vector<glm::uvec2> guide = learn_guide(source);
     if (!guide.empty())
@@ -234,7 +235,8 @@ std::vector<glm::uvec2> WaveTracer::learn_guide(const KernelSource& source) {
   const std::vector<uint32_t> flux = photons_->download_all<uint32_t>();
   const auto* words = static_cast<const uint32_t*>(counters_->mapped());
   std::vector<glm::uvec2> guide;
-  if (source.options.guiding == Guiding::kOn || guide_pays(flux, words[gpu::kCounterCaustics])) guide = build_guide(flux, features_.focusers);
+  if (source.options.guiding == Guiding::kOn || guide_pays(flux, words[gpu::kCounterCaustics]))
+    guide = build_guide(flux, features_.focusers);
   guide_seconds_ = timer.seconds();
   return guide;
 }

@@ -28,7 +28,8 @@ uvec4 load_shape(uint row) { return texelFetch(shapes, int(row)); }
 // operations in sequence, Higham 2002), and two more for the additions of offset_origin: 7 for barycentrics; of a
 // curved shape p comes from the object-space point by a 3 x 4 transform, and that point from a square root.
 const float kGammaTriangle = 9.0 * 5.9604645e-8;
-const float kGammaWall = 24.0 * 5.9604645e-8;  // geometry/baked.glsl sees the plane from there
+// Of a wall: geometry/baked.glsl sees its plane from there, which is not quite the triangle's.
+const float kGammaWall = 24.0 * 5.9604645e-8;
 const float kGammaCurved = 18.0 * 5.9604645e-8;
 
 // s and t from dp_du where the material needs them so; else any.
@@ -57,7 +58,7 @@ vec3 triangle_normal(vec3 e1, vec3 e2, vec3 e12) {
   return normalize(cross(l1 > max(l2, l12) ? e2 : e1, l12 > max(l1, l2) ? e2 : e12));
 }
 
-Interaction triangle_interaction(uint primitive, vec2 b, float gamma) {
+Interaction triangle_interaction(uint primitive, vec2 b, bool is_wall) {
   Interaction it;
   uvec4 triangle = load_triangle(primitive);
   it.shape = triangle.w;
@@ -69,7 +70,8 @@ Interaction triangle_interaction(uint primitive, vec2 b, float gamma) {
   vec4 v0 = load_position(triangle.x), v1 = load_position(triangle.y), v2 = load_position(triangle.z);
   float b0 = 1.0 - b.x - b.y;
   it.p = b0 * v0.xyz + b.x * v1.xyz + b.y * v2.xyz;
-  it.p_error = gamma * (abs(b0 * v0.xyz) + abs(b.x * v1.xyz) + abs(b.y * v2.xyz));
+  vec3 terms = abs(b0 * v0.xyz) + abs(b.x * v1.xyz) + abs(b.y * v2.xyz);
+  it.p_error = is_wall ? vec3(kGammaWall * (terms.x + terms.y + terms.z)) : kGammaTriangle * terms;
   vec3 e1 = v1.xyz - v0.xyz, e2 = v2.xyz - v0.xyz;
   vec3 n = triangle_normal(e1, e2, v2.xyz - v1.xyz);
   it.n_g = flip ? -n : n;
@@ -175,8 +177,8 @@ Interaction load_interaction(vec4 hit, vec3 o, vec3 d) {
   }
   uint second = id & 1u;
   uint rotation = (info.w >> (2u * second)) & 3u;
-  float gamma = has_walls && (info.z & kLeafWall) != 0u ? kGammaWall : kGammaTriangle;
-  return triangle_interaction(second != 0u ? info.y : info.x, triangle_barycentrics(hit.y, hit.z, rotation), gamma);
+  bool is_wall = has_walls && (info.z & kLeafWall) != 0u;
+  return triangle_interaction(second != 0u ? info.y : info.x, triangle_barycentrics(hit.y, hit.z, rotation), is_wall);
 }
 
 // Moves the origin of a ray that leaves `it` in direction w off the surface, to the side of w, by the bound of the

@@ -1,7 +1,7 @@
-// Starts photons: one a lane, from a light that is chosen by its power and uniform over its area, one half by the cosine
-// and one half to the focusers (shared/guide.h), which few find else: Jensen and Christensen 1995, "Photon Maps in
-// Bidirectional Monte Carlo Ray Tracing of Complex Objects", section 4, aim them so with projection maps. Only the guide
-// learns from photons, so their density may be approximate (elliptic shapes, textures).
+// Starts photons: one a lane, from a light that is chosen by its power and uniform over its area, one half by the
+// cosine and one half to the focusers (shared/guide.h), which few find else; Jensen 1996, "Global Illumination using
+// Photon Maps", aims them so with projection maps. Only the guide learns from photons, so their density may be
+// approximate (elliptic shapes, textures).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;

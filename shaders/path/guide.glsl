@@ -67,8 +67,8 @@ float guided_pdf(GuideCell cell, vec3 w, vec3 local, float pdf_bsdf) {
   return base * guide_density(cell.first, local) * pdf_bsdf + pdf;
 }
 
-// flux: of the photon that came from o along d, 1 for the mean photon; w: against d, in the surface's frame; is_caustic:
-// from a focused lobe.
+// flux: of the photon that came from o along d, 1 for the mean photon; w: against d, in the surface's frame;
+// is_caustic: from a focused lobe.
 void deposit_photon(bool wanted, GuideCell cell, vec3 o, vec3 d, vec3 w, float flux, bool is_caustic) {
   wanted = wanted && w.z > 0.0;
   flux = clamp(flux, 0.0, 16.0);

@@ -1,5 +1,5 @@
-// Walls (shared/baked.h): what is large and flat is tested before the tree, for all lanes at once and without loads. Many
-// rays then need no tree, and the others none of its root. WALLS: of a scene that has some.
+// Walls (shared/baked.h): what is large and flat is tested before the tree, for all lanes at once and without loads.
+// Many rays then need no tree, and the others none of its root. WALLS: of a scene that has some.
 //
 // The kernel defines, before it includes this file and geometry/trace_rays.glsl,
 //   TraceRay load_ray(uint ray)
@@ -14,8 +14,8 @@
 
 layout(set = 0, binding = kBindBaked) uniform samplerBuffer walls;
 
-// Of a ray that goes on to the tree, by its place in the workgroup: which of the root's slots it meets, and where it has
-// met a wall.
+// Of a ray that goes on to the tree, by its place in the workgroup: which of the root's slots it meets, and where it
+// has met a wall.
 shared uint wall_slots[kRaysPerGroup];
 shared float wall_distances[kRaysPerGroup];
 
@@ -31,8 +31,8 @@ TraceHit wall_hit(TraceRay ray, uint face, float t) {
   return s >= r ? TraceHit(id, s - r, r, t) : TraceHit(id + 1u, s, r - s, t);
 }
 
-// Finishes the `count` rays listed from `first` on by what they meet of walls. Returns how many may meet the tree before;
-// these are then listed from `first` on.
+// Finishes the `count` rays listed from `first` on by what they meet of walls. Returns how many may meet the tree
+// before; these are then listed from `first` on.
 uint trace_walls(uint first, uint count, const bool any) {
   uvec4 n0 = load_bvh_node(0u), n1 = load_bvh_node(1u);  // the root
   uvec4 n2 = load_bvh_node(2u), n3 = load_bvh_node(3u), n4 = load_bvh_node(4u);
@@ -58,7 +58,8 @@ uint trace_walls(uint first, uint count, const bool any) {
     left += subgroupBallotBitCount(ballot);
   }
   // Not in the loop, which subgroups leave at different times: entries are read before others are written over them.
-  subgroupMemoryBarrierShared();
+  // Hits may be written once more, by other lanes.
+  subgroupMemoryBarrier();
   subgroupBarrier();
   return left;
 }

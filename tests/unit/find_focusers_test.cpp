@@ -34,8 +34,8 @@ TEST(FindFocusers, AreGlassAndMetal) {
 }
 
 TEST(FindFocusers, HoldMeshes) {
-  const std::vector<glm::vec4> one = focusers_of(R"(<shape type="cube"><transform name="to_world"><scale x="1" y="2" z="2"/>
-<translate x="5"/></transform><bsdf type="dielectric"/></shape>)");
+  const std::vector<glm::vec4> one = focusers_of(R"(<shape type="cube"><transform name="to_world">
+<scale x="1" y="2" z="2"/><translate x="5"/></transform><bsdf type="dielectric"/></shape>)");
   ASSERT_EQ(one.size(), 1u);
   EXPECT_NEAR(one[0].x, 5, 1e-5);
   EXPECT_NEAR(one[0].w, 3, 0.01);
