@@ -132,11 +132,12 @@ Bvh8 build_bvh8(const BvhInput& input, const BvhSettings& settings) {
   const std::vector<uint32_t> walls = choose_walls(input, pairing.pairs, primitives, settings.most_walls);
   Box box;
   for (const uint32_t wall : walls) box.grow(primitives[wall].box());
-  const auto is_wall = [&](const BinaryNode& node) {
-    return std::find(walls.begin(), walls.end(), node.first) != walls.end();
+  const auto build_without_walls = [&](std::vector<BinaryNode> all, int max_depth) {
+    const auto is_wall = [&](const BinaryNode& n) { return std::find(walls.begin(), walls.end(), n.first) != walls.end(); };
+    if (!walls.empty()) std::erase_if(all, is_wall);
+    return build_binary_bvh(std::move(all), settings.bins, max_depth);
   };
-  if (!walls.empty()) std::erase_if(primitives, is_wall);
-  BinaryBvh binary = build_binary_bvh(std::move(primitives), settings.bins, kMaxBinaryDepth);
+  BinaryBvh binary = build_without_walls(std::move(primitives), kMaxBinaryDepth);
   stats.build_seconds = timer.seconds();
   timer = Timer();
   optimise_binary_bvh(binary, settings.reinsertion_passes);
@@ -147,9 +148,7 @@ Bvh8 build_bvh8(const BvhInput& input, const BvhSettings& settings) {
   FlatNodes flat = flatten_bvh8(binary, curved);
   if (flat.depth > static_cast<int>(gpu::kBvhMaxDepth)) {
     // A wide tree is never deeper than the binary one.
-    primitives = bound_primitives(input, pairing.pairs);
-    if (!walls.empty()) std::erase_if(primitives, is_wall);
-    binary = build_binary_bvh(std::move(primitives), settings.bins, gpu::kBvhMaxDepth);
+    binary = build_without_walls(bound_primitives(input, pairing.pairs), gpu::kBvhMaxDepth);
     flat = flatten_bvh8(binary, curved);
   }
   CHECK_LE(flat.depth, static_cast<int>(gpu::kBvhMaxDepth));

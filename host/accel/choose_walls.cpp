@@ -23,11 +23,10 @@ Box bound_all(std::span<const BinaryNode> primitives, const std::vector<uint32_t
 
 // Area of a pair that is a parallelogram; 0 of others.
 double parallelogram_area(const BvhInput& input, const TrianglePair& pair) {
-  const std::array<glm::vec3, 4> v = pair_vertices(input, pair);
   if (pair.second == TrianglePair::kNoTriangle) return 0;
-  const glm::dvec3 a(v[0]), b(v[1]), c(v[2]), d(v[3]);
-  const double size = std::max(glm::length(c - a), glm::length(d - b));
-  return glm::length(a + c - b - d) < 1e-6 * size ? glm::length(glm::cross(b - a, d - a)) : 0;
+  std::array<glm::dvec3, 4> v;
+  std::ranges::copy(pair_vertices(input, pair), v.begin());
+  return is_parallelogram(v) ? glm::length(glm::cross(v[1] - v[0], v[3] - v[0])) : 0;
 }
 
 struct Candidate {

@@ -271,4 +271,10 @@ std::array<glm::vec3, 4> pair_vertices(const BvhInput& input, const TrianglePair
           pair.second == TrianglePair::kNoTriangle ? v2 : vertex(input.triangles[pair.second], 2 + r1)};
 }
 
+bool is_parallelogram(const std::array<glm::dvec3, 4>& corners) {
+  const auto& [a, b, c, d] = corners;
+  const double size = std::max(glm::length(c - a), glm::length(d - b));
+  return glm::length(a + c - b - d) < 1e-6 * size;
+}
+
 }  // namespace tachylite

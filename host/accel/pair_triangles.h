@@ -20,6 +20,9 @@ struct TrianglePair {
 /// v0 v1 v2 v3 of shared/bvh.h.
 std::array<glm::vec3, 4> pair_vertices(const BvhInput& input, const TrianglePair& pair);
 
+/// Whether these corners in order are a parallelogram's, but for rounding.
+bool is_parallelogram(const std::array<glm::dvec3, 4>& corners);
+
 struct Pairing {
   std::vector<TrianglePair> pairs;  // in the order of their first triangles
   uint64_t dropped = 0;             // triangles of area 0 (in double precision)

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "accel/pair_triangles.h"
 #include "pack/find_boxes.h"
 #include "shared/baked.h"
 #include "shared/geometry.h"
@@ -116,8 +117,7 @@ class Baker {
                          uint32_t primitive) {
       faces_.push_back({face_kind, {v0, {v1 - v0, v2 - v0}}, 2 * leaf + triangle, primitive});
     };
-    const double size = std::max(glm::length(v[2] - v[0]), glm::length(v[3] - v[1]));
-    const bool parallelogram = info.x != info.y && glm::length(v[0] + v[2] - v[1] - v[3]) < 1e-6 * size;
+    const bool parallelogram = info.x != info.y && is_parallelogram(v);
     // A hit on two triangles at once does not tell which: that is enough where both are one light, or none.
     if (parallelogram && (walls_ || lights_do_not_care(info))) {
       add(gpu::kBakedParallelogram, v[0], v[1], v[3], 0, info.x);
