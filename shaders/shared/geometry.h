@@ -1,9 +1,8 @@
 // Records of shapes and primitives. All positions are in device space: world space translated by the scene's centre
 // (in double, on the host), so that float resolution lies where the scene is.
 //
-// Leaf info (kBindLeafInfo), one row a leaf: (primitive 0, primitive 1, kind | class << 8 | kLeafEmits | kLeafHides |
-//   kLeafWall,
-//   rotations).
+// Leaf info (kBindLeafInfo), one row a leaf: (primitive 0, primitive 1,
+//   kind | class << 8 | kLeafEmits | kLeafHides | kLeafWall, rotations).
 //   kind: kLeaf... of shared/bvh.h; class: queue of the material.
 // Triangle (kBindTriangles), one row: (vertex 0, vertex 1, vertex 2, shape).
 // Curved primitive (kBindCurved), kCurvedRows rows of vec4: object-to-world rows 0..2 (3 x 4); (shape bits, kind

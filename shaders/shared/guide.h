@@ -4,10 +4,10 @@
 // A cell is a hash of a cube of space and of the axis that the normal is nearest to; its edge is a power of two that
 // grows with the distance from the camera. Cells that share a hash share their light, which costs noise, not bias.
 // A cell has one table and one more for each focuser, a sphere around shapes that throw light together. Light that comes
-// from within a focuser counts in its table, by where on the disk of the sphere it is seen (path/focus_cone.glsl): that
-// hardly depends on the place in the cell, as its direction does. The cell's first table has all other light.
-// In a table the square [0, 1)^2 of numbers that sample a cosine-weighted direction (base/warp.glsl), or a point of that
-// disk, is cut into kGuideBins^2 bins, bin x + kGuideBins * y.
+// from within a focuser counts in its table, by where on the disk of the sphere it is seen: that hardly depends on the
+// place in the cell, as its direction does. The cell's first table has all other light.
+// In a table the square [0, 1)^2 of numbers that sample a cosine-weighted direction (base/warp.glsl), or one towards the
+// focuser (path/focus_cone.glsl), is cut into kGuideBins^2 bins, bin x + kGuideBins * y.
 //
 //   kBindPhotons: uint a bin: flux of the photons there, in units of 1 / kPhotonUnit of the mean photon's.
 //   kBindGuide: kGuideCellBins texels (uvec2) a table. First the nodes of a quadtree over the square, whose children

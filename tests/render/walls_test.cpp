@@ -76,8 +76,8 @@ TEST_F(Walls, AreHitAsInTheTree) {
   }
 }
 
-// A floor through the origin of device space, whose corners are off it by what is left of cos 90: rays that leave the
-// triangles start above the floor of the walls. (A bound of the error by coordinates across the plane alone was none.)
+// A floor through the origin of device space, whose corners may be off it by what is left of cos 90 (it depends on how
+// the host was compiled): rays that leave the triangles start above the floor of the walls.
 TEST_F(Walls, DoNotShadowThemselves) {
   const std::string point = R"(<emitter type="point"><point name="position" x="1" y="3" z="1"/>
 <rgb name="intensity" value="10"/></emitter>)";
