@@ -1,6 +1,7 @@
 #include "base/memory.h"
 
 #include <malloc.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -38,6 +39,13 @@ void require_memory(const FileLocation& where, const std::string& what, uint64_t
   if (bytes <= kAlways) return;
   if (const uint64_t available = available_memory(); bytes > available)
     throw InputError(where, fmt::format("{} needs {} bytes of memory; {} are available", what, bytes, available));
+}
+
+void prefer_huge_pages(void* begin, uint64_t bytes) {
+  constexpr uint64_t kPage = 4096, kHugePage = 2 << 20;
+  if (bytes < kHugePage) return;
+  const auto address = reinterpret_cast<uintptr_t>(begin), first = (address + kPage - 1) / kPage * kPage;
+  madvise(reinterpret_cast<void*>(first), (address + bytes - first) / kPage * kPage, MADV_HUGEPAGE);
 }
 
 uint64_t peak_memory() { return read_kibibytes("/proc/self/status", "VmHWM:"); }

@@ -5,6 +5,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/memory.h"
 #include "vulkan/check.h"
 
 namespace tachylite::vulkan {
@@ -102,8 +103,11 @@ Buffer::Buffer(Device& device, uint64_t bytes, Domain domain) : device_(&device)
     device.allocated_bytes_ += allocated_;
     check(vkBindBufferMemory(device.handle(), buffer_, memory_, 0), "vkBindBufferMemory");
     if ((memory.memoryTypes[type].propertyFlags & kMappable) == kMappable &&
-        (unified || domain == Domain::kHost))
+        (unified || domain == Domain::kHost)) {
       check(vkMapMemory(device.handle(), memory_, 0, VK_WHOLE_SIZE, 0, &mapped_), "vkMapMemory");
+      // What the host reads, film above all, it reads more slowly from them.
+      if (device.is_cpu() && domain == Domain::kDevice) prefer_huge_pages(mapped_, needed);
+    }
   } catch (...) {
     destroy();
     throw;
