@@ -45,12 +45,30 @@ class Buffer {
     download(values.data(), values.size() * sizeof(T));
     return values;
   }
+  /// Calls write(std::span<T>) with the memory of the whole buffer, which it is to write: the mapped one, or a copy that is
+  /// uploaded then. What the span holds before is undefined.
+  template <class T, class Write>
+  void write_all(const Write& write) {
+    std::vector<T> copy(mapped_ ? 0 : bytes_ / sizeof(T));
+    write(mapped_ ? mapped_values<T>() : std::span<T>(copy));
+    if (!mapped_) upload(copy.data(), copy.size() * sizeof(T));
+  }
+  /// read(std::span<const T>) of the whole buffer, likewise.
+  template <class T, class Read>
+  auto read_all(const Read& read) const {
+    const std::vector<T> copy = mapped_ ? std::vector<T>() : download_all<T>();
+    return read(mapped_ ? std::span<const T>(mapped_values<T>()) : std::span<const T>(copy));
+  }
   /// The whole buffer as a texel buffer of that format; made on first use, owned by the buffer. The buffer
   /// must hold at most the device's max_texel_buffer_elements of them (BindingTable checks it).
   VkBufferView texel_view(VkFormat format) const;
 
  private:
   void destroy();
+  template <class T>
+  std::span<T> mapped_values() const {
+    return {static_cast<T*>(mapped_), bytes_ / sizeof(T)};
+  }
 
   Device* device_ = nullptr;
   uint64_t bytes_ = 0;      // as asked for

@@ -122,8 +122,10 @@ void build_cell(std::span<const uint32_t> flux, std::span<glm::uvec2> out) {
     build_table(table_of(flux, t), kFocusedShare * photons[t] / (photons[t] + kUniformOfFocuser), kSharp,
                 table_of(out, t));
   }
-  const double rest = all > 0 ? guided * photons[0] / all : 0;
-  build_table(table_of(flux, 0), rest / (1 - guided + rest), tables > 1 ? kSmooth : kSharp, table_of(out, 0));
+  if (all > 0) {
+    const double rest = guided * photons[0] / all;
+    build_table(table_of(flux, 0), rest / (1 - guided + rest), tables > 1 ? kSmooth : kSharp, table_of(out, 0));
+  }
   out[gpu::kGuideShares] = {glm::packUnorm2x16({shares.x, shares.y}), glm::packUnorm2x16({shares.z, shares.w})};
 }
 
@@ -158,14 +160,13 @@ bool guide_pays(std::span<const uint32_t> flux, uint32_t caustics) {
   return all > 0 && caustics / gpu::kCausticUnit >= kCausticShare * all / gpu::kPhotonUnit;
 }
 
-std::vector<glm::uvec2> build_guide(std::span<const uint32_t> flux, uint32_t focusers) {
-  std::vector<glm::uvec2> guide(flux.size());
-  const size_t cell_bins = size_t{kGuideCellBins} * (1 + focusers);
-  parallel_for(0, flux.size() / cell_bins, 64, [&](size_t first, size_t last) {
+void build_guide(std::span<const uint32_t> flux, uint32_t focusers, std::span<glm::uvec2> guide) {
+  const size_t cell_bins = size_t{kGuideCellBins} * (1 + focusers), cells = flux.size() / cell_bins;
+  parallel_for(0, cells, 64, [&](size_t first, size_t last) {
     for (size_t cell = first; cell < last; ++cell)
-      build_cell(flux.subspan(cell * cell_bins, cell_bins), std::span(guide).subspan(cell * cell_bins, cell_bins));
+      build_cell(flux.subspan(cell * cell_bins, cell_bins), guide.subspan(cell * cell_bins, cell_bins));
   });
-  return guide;
+  build_table({}, 0, kSharp, guide.subspan(cells * cell_bins, kGuideCellBins));
 }
 
 }  // namespace tachylite

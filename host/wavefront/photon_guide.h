@@ -32,8 +32,9 @@ float guide_scale(const gpu::RenderParams& params);
 constexpr double kCausticShare = 0.01;
 bool guide_pays(std::span<const uint32_t> flux, uint32_t caustics);
 
-/// kBindGuide of shared/guide.h from what photons have left in kBindPhotons: a mixture of their distribution and of the
-/// uniform one, which has the more weight the fewer photons there are. Each cell has 1 + focusers tables.
-std::vector<glm::uvec2> build_guide(std::span<const uint32_t> flux, uint32_t focusers);
+/// Writes kBindGuide of shared/guide.h from what photons have left in kBindPhotons: a mixture of their distribution and of
+/// the uniform one, which has the more weight the fewer photons there are. Each cell has 1 + focusers tables; `guide` has
+/// one cell more than `flux`. What no sample reads is not written.
+void build_guide(std::span<const uint32_t> flux, uint32_t focusers, std::span<glm::uvec2> guide);
 
 }  // namespace tachylite

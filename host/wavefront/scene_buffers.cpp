@@ -29,8 +29,7 @@ std::vector<BufferPlan> plan_buffers(const PackedScene& s, const gpu::RenderPara
   const bool media = s.features.media != 0, lit = s.features.selection != gpu::kSelectNone;
   const auto& baked = plan.baked;
   const uint64_t film_rows = uint64_t{plan.pixels} * plan.blocks;
-  const uint64_t tables = plan.may_guide ? uint64_t{gpu::kGuideCells} * (1 + s.features.focusers) : 0;
-  const uint64_t bins = tables * gpu::kGuideCellBins;
+  const uint64_t cell_bins = plan.may_guide ? uint64_t{gpu::kGuideCellBins} * (1 + s.features.focusers) : 0;
   // What only the stages need.
   const uint64_t slots = baked ? 0 : plan.capacity;
   const uint64_t path_bytes = slots * sizeof(glm::vec4) * (media ? gpu::kPathRowsMedia : gpu::kPathRowsBase);
@@ -78,8 +77,9 @@ std::vector<BufferPlan> plan_buffers(const PackedScene& s, const gpu::RenderPara
       {"pixel list", {texel(gpu::kBindPixelList, VK_FORMAT_R32G32_UINT)}, nullptr,
        listed ? film_rows * sizeof(glm::uvec2) : 0, vulkan::Domain::kHost},
       scene_buffer("emission", gpu::kBindEmission, VK_FORMAT_R32_SFLOAT, plan.may_guide ? s.emission : no_floats),
-      {"photons", {storage(gpu::kBindPhotons)}, nullptr, bins * sizeof(uint32_t)},
-      {"guide", {texel(gpu::kBindGuide, VK_FORMAT_R32G32_UINT)}, nullptr, bins * sizeof(glm::uvec2)},
+      {"photons", {storage(gpu::kBindPhotons)}, nullptr, gpu::kGuideCells * cell_bins * sizeof(uint32_t)},
+      {"guide", {texel(gpu::kBindGuide, VK_FORMAT_R32G32_UINT)}, nullptr,
+       (gpu::kGuideCells + 1) * cell_bins * sizeof(glm::uvec2)},
       {"auxiliary channels", {storage(gpu::kBindAov)}, nullptr,
        film_rows * sizeof(glm::vec4) * static_cast<uint64_t>(std::popcount(s.features.aovs)), vulkan::Domain::kHost},
   };

@@ -98,12 +98,9 @@ WaveTracer::WaveTracer(vulkan::Device& device, const PackedScene& scene, const R
   kernels_ = plan_.baked ? build_fused_kernel(source, *plan_.baked)
                          : build_stages(source, plan_.walls, plan_.may_guide);
   if (plan_.may_guide) {
-    const std::vector<glm::uvec2> guide = learn_guide(source);
-    if (!guide.empty())
-      guide_->upload(guide.data(), guide.size() * sizeof(guide[0]));
-    else
-      kernels_.skipped.push_back("guide");
-    build_surface_kernels(source, !guide.empty(), kernels_);
+    const bool guided = learn_guide(source);
+    if (!guided) kernels_.skipped.push_back("guide");
+    build_surface_kernels(source, guided, kernels_);
   }
   commands_.submit_and_wait();
   commands_.set_timing(options.timing);
@@ -199,7 +196,7 @@ void WaveTracer::record_bounce(WaveParams& wave) {
   dispatch_queue(k.intersect_shadow, gpu::kDispatchShadow, wave);
 }
 
-std::vector<glm::uvec2> WaveTracer::learn_guide(const KernelSource& source) {
+bool WaveTracer::learn_guide(const KernelSource& source) {
   const PhotonKernels photon_kernels = build_photon_kernels(source);
   kernels_.run.insert(kernels_.run.end(), photon_kernels.names.begin(), photon_kernels.names.end());
   // On surfaces that are not guided photons scatter as paths do; their shadow rays are not traced.
@@ -232,13 +229,14 @@ std::vector<glm::uvec2> WaveTracer::learn_guide(const KernelSource& source) {
     commands_.submit_and_wait();
   }
   commands_.set_timing(false);
-  const std::vector<uint32_t> flux = photons_->download_all<uint32_t>();
   const auto* words = static_cast<const uint32_t*>(counters_->mapped());
-  std::vector<glm::uvec2> guide;
-  if (source.options.guiding == Guiding::kOn || guide_pays(flux, words[gpu::kCounterCaustics]))
-    guide = build_guide(flux, features_.focusers);
+  const bool guided = photons_->read_all<uint32_t>([&](std::span<const uint32_t> flux) {
+    if (source.options.guiding != Guiding::kOn && !guide_pays(flux, words[gpu::kCounterCaustics])) return false;
+    guide_->write_all<glm::uvec2>([&](std::span<glm::uvec2> guide) { build_guide(flux, features_.focusers, guide); });
+    return true;
+  });
   guide_seconds_ = timer.seconds();
-  return guide;
+  return guided;
 }
 
 void WaveTracer::list_pixels(std::span<const glm::uvec2> listed) {

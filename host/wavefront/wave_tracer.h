@@ -64,7 +64,7 @@ class WaveTracer {
   void upload(const RenderOptions& options);
   void touch(const vulkan::Kernel& kernel);
   /// Traces photons; the guide, or nothing where it would not pay.
-  std::vector<glm::uvec2> learn_guide(const KernelSource& source);
+  bool learn_guide(const KernelSource& source);
   void dispatch_queue(const Kernels::Pointer& kernel, uint32_t dispatch, const gpu::WaveParams& wave);
   void dispatch_lanes(const Kernels::Pointer& kernel, uint32_t lanes, const gpu::WaveParams& wave);
   void prepare(uint32_t mode, gpu::WaveParams& wave);

@@ -20,6 +20,8 @@ struct GuideCell {
   vec3 p, tangent;
 };
 
+uint guide_cell_bins() { return kGuideCellBins * (1u + focuser_count); }
+
 // First bin of the table of a focuser.
 uint focuser_table(GuideCell cell, uint focuser) { return cell.first + (focuser + 1u) * kGuideCellBins; }
 
@@ -34,7 +36,7 @@ uint first_guide_bin(vec3 p, vec3 n) {
   vec3 a = abs(n);
   uint axis = a.x > max(a.y, a.z) ? (n.x > 0.0 ? 0u : 1u) : (a.y > a.z ? (n.y > 0.0 ? 2u : 3u) : (n.z > 0.0 ? 4u : 5u));
   uint key = hash_pair(hash_pair(q.x, q.y), hash_pair(q.z, exponent * 8u + axis));
-  return key % kGuideCells * (kGuideCellBins * (1u + focuser_count));
+  return key % kGuideCells * guide_cell_bins();
 }
 
 GuideCell find_guide_cell(vec3 p, vec3 n) {
@@ -42,6 +44,7 @@ GuideCell find_guide_cell(vec3 p, vec3 n) {
   if (!is_photon_pass) {
     uvec2 shares = texelFetch(guide_table, int(cell.first + kGuideShares)).xy;
     cell.shares = vec4(unpackUnorm2x16(shares.x), unpackUnorm2x16(shares.y));
+    if (shares.y >> 16u == 0xffffu) cell.first = kGuideCells * guide_cell_bins();
     // Where a sphere holds the point, the surface goes on without it.
     for (uint k = 0u; k < focuser_count; ++k)
       if (!sees_focuser(params.focusers[k], p)) cell.shares[k] = 0.0;
@@ -61,7 +64,7 @@ float guided_pdf(GuideCell cell, vec3 w, vec3 local, float pdf_bsdf) {
     FocusCone cone = focus_cone(cell, k);
     vec2 u = focus_numbers(cone, w);
     float density = table_density(focuser_table(cell, k), bin_of_numbers(u));
-    pdf += is_in_square(u) ? cell.shares[k] * pdf_focus_cone(cone) * density : 0.0;
+    pdf += cell.shares[k] > 0.0 && is_in_square(u) ? cell.shares[k] * pdf_focus_cone(cone) * density : 0.0;
     base -= cell.shares[k];
   }
   return base * guide_density(cell.first, local) * pdf_bsdf + pdf;

@@ -17,7 +17,8 @@
 //     From texel kGuideDensities on, two bins a texel: bits of the density w.r.t. area of the square, mean 1 over a table.
 //     Texel kGuideShares of a cell's first table: 16 bits each of the focusers' shares of the samples, and of the share
 //     that follows the bsdf alone, in 1 / 65535. Multiple importance sampling goes by the latter: photons tell nothing of
-//     the light that light samples find, and its weights may be any that both techniques agree on.
+//     the light that light samples find, and its weights may be any that both techniques agree on. Of a cell without photons
+//     that share is 1, nothing else is written, and the first table after the cells, which is uniform, stands in.
 #ifndef TACHYLITE_SHARED_GUIDE_H
 #define TACHYLITE_SHARED_GUIDE_H
 #include "interop.h"

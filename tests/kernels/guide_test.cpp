@@ -22,7 +22,7 @@ using gpu::kGuideCellBins;
 constexpr uint32_t kGuideCellsTested = 4, kGuideSamples = 1 << 18;
 const double kGuideLevel = sidak(1e-4, 4);
 
-// No photon; one bin full of them; few; a bright quarter on noise.
+// No photon; one bin full of them; few; a bright quarter on noise. After these cells comes the uniform one.
 std::vector<uint32_t> some_photons() {
   std::mt19937 generator(3);
   std::vector<uint32_t> flux(kGuideCellsTested * kGuideCellBins, 0);
@@ -31,6 +31,12 @@ std::vector<uint32_t> some_photons() {
   for (uint32_t b = 0; b < kGuideCellBins; ++b)
     flux[3 * kGuideCellBins + b] = generator() % 2000 + (b % kGuideBins < 8 && b / kGuideBins < 8 ? 20000 : 0);
   return flux;
+}
+
+std::vector<glm::uvec2> guide_of(const std::vector<uint32_t>& flux, uint32_t focusers) {
+  std::vector<glm::uvec2> guide(flux.size() + kGuideCellBins * (1 + focusers));
+  build_guide(flux, focusers, guide);
+  return guide;
 }
 
 double density_of(const std::vector<glm::uvec2>& guide, uint32_t cell, uint32_t bin) {
@@ -53,8 +59,8 @@ double probability_of(const std::vector<glm::uvec2>& guide, uint32_t cell, uint3
 }
 
 TEST(PhotonGuide, TreeHasTheDensity) {
-  const std::vector<glm::uvec2> guide = build_guide(some_photons(), 0);
-  for (uint32_t cell = 0; cell < kGuideCellsTested; ++cell) {
+  const std::vector<glm::uvec2> guide = guide_of(some_photons(), 0);
+  for (uint32_t cell = 1; cell <= kGuideCellsTested; ++cell) {
     double sum = 0;
     for (uint32_t b = 0; b < kGuideCellBins; ++b) {
       sum += density_of(guide, cell, b);
@@ -67,8 +73,10 @@ TEST(PhotonGuide, TreeHasTheDensity) {
 }
 
 TEST(PhotonGuide, FollowsPhotonsWhereThereAreMany) {
-  const std::vector<glm::uvec2> guide = build_guide(some_photons(), 0);
-  for (uint32_t b = 0; b < kGuideCellBins; ++b) EXPECT_EQ(density_of(guide, 0, b), 1);
+  const std::vector<glm::uvec2> guide = guide_of(some_photons(), 0);
+  // Without any, all samples follow the bsdf alone, and the table after the last cell stands in.
+  EXPECT_EQ(guide[gpu::kGuideShares].y >> 16, 0xffff);
+  for (uint32_t b = 0; b < kGuideCellBins; ++b) EXPECT_EQ(density_of(guide, kGuideCellsTested, b), 1);
   // 0.85 of the samples; of those 1 / (1 + 4 * 0.2 + 4 * 0.04) in the bin itself.
   EXPECT_NEAR(density_of(guide, 1, 37) / kGuideCellBins, 0.85 / 1.96, 0.01);
   EXPECT_GT(density_of(guide, 3, 0), 2 * density_of(guide, 3, kGuideCellBins - 1));
@@ -87,8 +95,8 @@ std::vector<glm::vec4> run_guide(const std::vector<glm::uvec2>& guide, uint32_t 
 // In quarters of the bins, so that the numbers must be uniform within a bin, too. 2^18 samples in 1024 of them see a
 // density that is off by 3 % (standard deviation) with probability 0.99.
 TEST_F(GuideTable, DrawsFromItsDensity) {
-  const std::vector<glm::uvec2> guide = build_guide(some_photons(), 0);
-  for (uint32_t cell = 0; cell < kGuideCellsTested; ++cell) {
+  const std::vector<glm::uvec2> guide = guide_of(some_photons(), 0);
+  for (uint32_t cell = 1; cell <= kGuideCellsTested; ++cell) {
     constexpr uint32_t kFine = 2 * kGuideBins;
     std::vector<double> observed(kFine * kFine, 0.0), expected(kFine * kFine);
     for (uint32_t i = 0; i < kFine * kFine; ++i) {
@@ -109,7 +117,7 @@ TEST_F(GuideTable, DrawsFromItsDensity) {
 
 // The density of a direction is that of the numbers that it was sampled with, but for rounding at the borders of bins.
 TEST_F(GuideTable, FindsTheBinOfADirection) {
-  const std::vector<glm::uvec2> guide = build_guide(some_photons(), 0);
+  const std::vector<glm::uvec2> guide = guide_of(some_photons(), 0);
   for (const bool guided : {true, false}) {
     int wrong = 0;
     for (const glm::vec4& s : run_guide(guide, 3, guided)) {
@@ -132,7 +140,7 @@ std::vector<uint32_t> focused_photons() {
 
 TEST(PhotonGuide, FocusersHaveTheShareOfTheirLight) {
   const std::vector<uint32_t> flux = focused_photons();
-  const std::vector<glm::uvec2> guide = build_guide(flux, 2);
+  const std::vector<glm::uvec2> guide = guide_of(flux, 2);
   double own = 0;
   for (size_t b = 0; b < kGuideCellBins; ++b) own += flux[b] / double{gpu::kPhotonUnit};
   const glm::vec2 first = glm::unpackUnorm2x16(guide[gpu::kGuideShares].x);
