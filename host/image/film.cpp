@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numeric>
 
 #include "base/check.h"
 #include "base/error.h"
@@ -138,14 +139,15 @@ glm::dvec3 FilmBuffer::variance_of_mean(size_t index) const {
 double FilmBuffer::relative_error() const {
   if (!has_variance()) return 0;
   const glm::dvec3 luminance(0.212671, 0.715160, 0.072169);
-  double mean_luminance = 0, variance = 0;
-  for (size_t i = 0; i < pixels(); ++i) {
-    mean_luminance += glm::dot(luminance, mean(i));
-    const double deviation = glm::dot(luminance, glm::sqrt(variance_of_mean(i)));
-    variance += deviation * deviation;
-  }
-  const double count = static_cast<double>(pixels());
-  return mean_luminance > 0 ? std::sqrt(variance / count) / (mean_luminance / count) : 0;
+  std::vector<glm::dvec2> sums(static_cast<size_t>(height_));  // of luminance and its variance, by rows
+  parallel_for_each(sums.size(), [&](size_t y) {
+    for (size_t i = y * static_cast<size_t>(width_), end = i + static_cast<size_t>(width_); i < end; ++i) {
+      const double deviation = glm::dot(luminance, glm::sqrt(variance_of_mean(i)));
+      sums[y] += glm::dvec2(glm::dot(luminance, mean(i)), deviation * deviation);
+    }
+  });
+  const glm::dvec2 all = std::accumulate(sums.begin(), sums.end(), glm::dvec2(0)) / static_cast<double>(pixels());
+  return all.x > 0 ? std::sqrt(all.y) / all.x : 0;
 }
 
 std::vector<FilmBuffer::NamedSums> FilmBuffer::all_sums() {

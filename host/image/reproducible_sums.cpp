@@ -37,8 +37,9 @@ void ReproducibleSums::add(const ReproducibleSums& other) {
 double ReproducibleSums::value(size_t i) const {
   // Carry first: then the upper digit alone is right to the last bit of a double or two.
   const int64_t carry = low_[i] >> kDigitBits;
-  return std::ldexp(static_cast<double>(high_[i] + carry), kDigitBits * place_[i]) +
-         std::ldexp(static_cast<double>(low_[i] - (carry << kDigitBits)), kDigitBits * (place_[i] - 1));
+  const double scale = unit(place_[i]);
+  return static_cast<double>(high_[i] + carry) * scale +
+         static_cast<double>(low_[i] - (carry << kDigitBits)) * kInverseBase * scale;
 }
 
 // 61 bits of the upper digit, 61 of the lower one, both in two's complement, and 6 of the place.

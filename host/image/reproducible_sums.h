@@ -1,9 +1,9 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <vector>
 
 namespace tachylite {
@@ -45,7 +45,7 @@ class ReproducibleSums {
 
  private:
   static constexpr int kDigitBits = 38;
-  static constexpr double kBase = 0x1p38, kHalf = 0x1p37;
+  static constexpr double kBase = 0x1p38, kInverseBase = 0x1p-38, kHalf = 0x1p37;
   static constexpr int kLowestPlace = -26, kHighestPlace = 26;  // the upper digit's unit is 2^(38 place)
 
   /// The integer nearest to |x| < 2^51, ties to even.
@@ -53,12 +53,8 @@ class ReproducibleSums {
     constexpr double kShift = 0x1.8p52;
     return (x + kShift) - kShift;
   }
-  static double inverse_unit(int place) {
-    const uint64_t bits = static_cast<uint64_t>(1023 - kDigitBits * place) << 52;
-    double x;
-    std::memcpy(&x, &bits, sizeof x);
-    return x;
-  }
+  static double unit(int place) { return std::bit_cast<double>(static_cast<uint64_t>(1023 + kDigitBits * place) << 52); }
+  static double inverse_unit(int place) { return unit(-place); }
   static int8_t place_of(double value);  // the lowest with |value| < unit * kHalf
   void raise(size_t i, int8_t place);
 

@@ -23,8 +23,8 @@ PassSums::PassSums(const gpu::RenderParams& params, uint32_t blocks, const Packe
       aovs_(scene.aovs),
       aov_kinds_(scene.features.aovs),
       centre_(scene.centre),
-      rows_(1 + static_cast<size_t>(std::popcount(scene.features.aovs)),
-            std::vector<glm::vec4>(size_t{all_pixels_} * blocks)) {}
+      rows_(1 + static_cast<size_t>(std::popcount(scene.features.aovs))),
+      gathered_(rows_.size()) {}
 
 std::vector<std::string> PassSums::extra_channels() const {
   std::vector<std::string> names;
@@ -35,9 +35,14 @@ std::vector<std::string> PassSums::extra_channels() const {
 void PassSums::take(const gpu::WaveParams& wave, const glm::vec4* film, const glm::vec4* aov) {
   for (size_t row = 0; row < rows_.size(); ++row) {
     const glm::vec4* source = row == 0 ? film : aov + (row - 1) * params_.aov_stride;
-    for (uint32_t b = 0; b < wave.block_count; ++b)
-      std::copy_n(source + size_t{b} * wave.pixel_count, wave.pixel_count,
-                  rows_[row].begin() + static_cast<ptrdiff_t>(size_t{b} * all_pixels_ + wave.first_pixel));
+    rows_[row] = source;
+    if (wave.pixel_count == all_pixels_) continue;
+    if (!gathered_[row]) gathered_[row] = std::make_unique_for_overwrite<glm::vec4[]>(size_t{all_pixels_} * blocks_);
+    rows_[row] = gathered_[row].get();
+    parallel_for_each(wave.block_count, [&](size_t b) {
+      std::copy_n(source + b * wave.pixel_count, wave.pixel_count,
+                  &gathered_[row][b * all_pixels_ + wave.first_pixel]);
+    });
   }
 }
 
@@ -56,15 +61,19 @@ void PassSums::add_block(FilmBuffer& film, size_t pixel, uint64_t n, const Value
   }
 }
 
-void PassSums::add_block_to(FilmBuffer& film, uint32_t block, uint64_t n) const {
-  parallel_for(0, params_.height, 16, [&](size_t first, size_t last) {
-    for (size_t y = first; y < last; ++y)
-      for (size_t x = 0; x < params_.width; ++x) {
-        const size_t tile = y / gpu::kTileSize * params_.tiles_x + x / gpu::kTileSize;
-        const size_t inner = y % gpu::kTileSize * gpu::kTileSize + x % gpu::kTileSize;
-        const size_t source = size_t{block} * all_pixels_ + tile * kTilePixels + inner;
-        add_block(film, y * params_.width + x, n, [&](size_t row) { return rows_[row][source]; });
-      }
+void PassSums::add_to(FilmBuffer& film, uint64_t samples) const {
+  // A few rows of the film, which a cache holds, take all blocks before the next.
+  parallel_for(0, params_.height, 8, [&](size_t first, size_t last) {
+    for (uint64_t begin = 0; begin < samples; begin += gpu::kBlockSamples) {
+      const uint64_t n = std::min<uint64_t>(gpu::kBlockSamples, samples - begin);
+      for (size_t y = first; y < last; ++y)
+        for (size_t x = 0; x < params_.width; ++x) {
+          const size_t tile = y / gpu::kTileSize * params_.tiles_x + x / gpu::kTileSize;
+          const size_t inner = y % gpu::kTileSize * gpu::kTileSize + x % gpu::kTileSize;
+          const size_t source = begin / gpu::kBlockSamples * all_pixels_ + tile * kTilePixels + inner;
+          add_block(film, y * params_.width + x, n, [&](size_t row) { return rows_[row][source]; });
+        }
+    }
   });
 }
 

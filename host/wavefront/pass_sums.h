@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -27,10 +28,11 @@ class PassSums {
   void add_listed_to(FilmBuffer& film, const gpu::WaveParams& wave, std::span<const glm::uvec2> listed,
                      const glm::vec4* film_block, const glm::vec4* aov_block) const;
 
-  /// film, aov: the device's blocks after `wave`; aov may be null.
+  /// film, aov: the device's blocks after `wave`; aov may be null. Of a wave with all pixels they are not copied, but read
+  /// by add_to().
   void take(const gpu::WaveParams& wave, const glm::vec4* film, const glm::vec4* aov);
-  /// Adds block `block` of the pass, which has n samples a pixel. Does not finish the film's blocks.
-  void add_block_to(FilmBuffer& film, uint32_t block, uint64_t n) const;
+  /// Adds the pass, which has `samples` samples a pixel. Does not finish the film's blocks.
+  void add_to(FilmBuffer& film, uint64_t samples) const;
 
  private:
   /// value(row): of film (0) and each kind of AOV.
@@ -42,7 +44,9 @@ class PassSums {
   std::vector<Aov> aovs_;
   uint32_t aov_kinds_ = 0;  // set of kAov...
   glm::dvec3 centre_{0};
-  std::vector<std::vector<glm::vec4>> rows_;  // film, then a row a kind of AOV; each blocks * all pixels
+  // Film, then a row a kind of AOV, of blocks * all pixels: the device's, or gathered.
+  std::vector<const glm::vec4*> rows_;
+  std::vector<std::unique_ptr<glm::vec4[]>> gathered_;
 };
 
 }  // namespace tachylite

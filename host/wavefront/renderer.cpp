@@ -174,11 +174,10 @@ bool Renderer::Impl::add_passes(FilmBuffer& film, PassSums& sums) {
     }
 
     // Add the pass to the film.
-    for (uint32_t b = 0; b < wave.block_count; ++b) {
-      const uint64_t first = (block + b) * kBlockSamples, n = std::min<uint64_t>(kBlockSamples, end_sample - first);
-      sums.add_block_to(film, b, n);
-      film.finish_blocks({first, n});
-    }
+    const uint64_t first = block * kBlockSamples, n = wave.block_count * kBlockSamples;
+    const SampleRange samples{first, std::min<uint64_t>(n, end_sample - first)};
+    sums.add_to(film, samples.count);
+    film.finish_blocks(samples, wave.block_count);
     block += wave.block_count;
     if (!within_limits(film) || stop) return false;
     if (is_pilot_enough(film)) break;
