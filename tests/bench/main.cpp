@@ -132,6 +132,8 @@ int run(int argc, char** argv) {
   int repetitions = 9;
   rays->add_option("--scene", scene, "one scene only")->check(CLI::IsMember(scene_names()));
   rays->add_option("--repetitions", repetitions, "of each measurement, in turn")->check(CLI::Range(1, 1000));
+  bool baked = false;
+  rays->add_flag("--baked", baked, "tiny scenes by their baked primitives");
   rays->add_flag("--json", json);
 
   CLI::App* paths = app.add_subcommand("paths", "paths per second of a Cornell box against a path tracer with Embree");
@@ -170,7 +172,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  if (rays->parsed()) print_rays(bench_rays(scene, repetitions), json);
+  if (rays->parsed()) print_rays(baked ? bench_baked_rays(scene, repetitions) : bench_rays(scene, repetitions), json);
   if (paths->parsed() && !paths_scene.empty()) print_ray_share(bench_ray_share(paths_scene, paths_repetitions), json);
   if (paths->parsed() && paths_scene.empty()) print_paths(bench_paths(paths_repetitions), json);
   if (build->parsed()) print_build(bench_build(build_mesh, build_repetitions), json);
