@@ -5,9 +5,9 @@
 
 namespace tachylite::bench {
 
-/// Rays a second of the device's trace kernels and of Embree on the same rays, which lie in memory, as hits do. Both run
-/// in turn in this process, and each figure is that of the repetition with least CPU time: 2 * rays / CPU seconds, what 2
-/// undisturbed cores do.
+/// Rays a second of the device's trace kernels and of Embree on the same rays, which lie in memory, as hits do. Both
+/// run in turn in this process, and each figure is that of the repetition with least CPU time: 2 * rays / CPU
+/// seconds, what 2 undisturbed cores do.
 struct RaysResult {
   std::string scene, rays;
   double mrays = 0, embree_mrays = 0;
