@@ -1,13 +1,9 @@
 #include "bench/embree_scene.h"
 
-#include <atomic>
 #include <cstring>
 #include <stdexcept>
-#include <thread>
-#include <vector>
 
 namespace tachylite::bench {
-namespace {
 
 RTCRay to_embree(const test::TraceRay& ray) {
   RTCRay r{};
@@ -18,21 +14,6 @@ RTCRay to_embree(const test::TraceRay& ray) {
   r.mask = ~0u;
   return r;
 }
-
-/// Blocks of rays, taken by the threads in turn.
-template <class Body>
-void for_blocks(size_t count, int threads, const Body& body) {
-  constexpr size_t kBlock = 1024;
-  std::atomic<size_t> next = 0;
-  const auto work = [&] {
-    for (size_t first; (first = next.fetch_add(kBlock)) < count;) body(first, std::min(first + kBlock, count));
-  };
-  std::vector<std::jthread> others;
-  for (int i = 1; i < threads; ++i) others.emplace_back(work);
-  work();
-}
-
-}  // namespace
 
 EmbreeScene::EmbreeScene(const test::TestMesh& mesh) {
   device_ = rtcNewDevice("threads=2");

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <span>
+#include <thread>
+#include <vector>
 
 #include <embree3/rtcore.h>
 
@@ -8,6 +12,21 @@
 #include "support/tracer.h"
 
 namespace tachylite::bench {
+
+RTCRay to_embree(const test::TraceRay& ray);
+
+/// Blocks of rays, taken by the threads in turn.
+template <class Body>
+void for_blocks(size_t count, int threads, const Body& body) {
+  constexpr size_t kBlock = 1024;
+  std::atomic<size_t> next = 0;
+  const auto work = [&] {
+    for (size_t first; (first = next.fetch_add(kBlock)) < count;) body(first, std::min(first + kBlock, count));
+  };
+  std::vector<std::jthread> others;
+  for (int i = 1; i < threads; ++i) others.emplace_back(work);
+  work();
+}
 
 /// The yardstick: a mesh in Embree, built for speed of tracing (RTC_BUILD_QUALITY_HIGH).
 class EmbreeScene {

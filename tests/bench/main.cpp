@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/bounces.h"
 #include "bench/build.h"
 #include "bench/lights.h"
 #include "bench/materials.h"
@@ -29,6 +30,23 @@ void print_rays(const std::vector<RaysResult>& results, bool json) {
     else
       fmt::print("{:8} {:9} {:9.2f} {:9.2f} {:7.3f} {:10}\n", r.scene, r.rays, r.mrays, r.embree_mrays, r.ratio(),
                  r.mismatches);
+  }
+}
+
+void print_bounces(const std::vector<BouncesResult>& results, bool json) {
+  if (!json)
+    fmt::print("{:8} {:15} {:>9} {:>9} {:>7} {:>9} {:>9}\n", "scene", "rays", "Mrays/s", "Embree", "ratio", "distances",
+               "seen");
+  for (size_t i = 0; i < results.size(); ++i) {
+    const BouncesResult& r = results[i];
+    if (json)
+      fmt::print("{}{{\"scene\": \"{}\", \"rays\": \"{}\", \"mrays\": {:.3f}, \"embree_mrays\": {:.3f}, "
+                 "\"ratio\": {:.3f}, \"distance_ratio\": {:.5f}, \"seen_ratio\": {:.5f}}}{}\n",
+                 i == 0 ? "[" : " ", r.scene, r.rays, r.mrays, r.embree_mrays, r.ratio(), r.distance_ratio, r.seen_ratio,
+                 i + 1 < results.size() ? "," : "]");
+    else
+      fmt::print("{:8} {:15} {:9.2f} {:9.2f} {:7.3f} {:9.5f} {:9.5f}\n", r.scene, r.rays, r.mrays, r.embree_mrays,
+                 r.ratio(), r.distance_ratio, r.seen_ratio);
   }
 }
 
@@ -132,7 +150,16 @@ int run(int argc, char** argv) {
   int repetitions = 9;
   rays->add_option("--scene", scene, "one scene only")->check(CLI::IsMember(scene_names()));
   rays->add_option("--repetitions", repetitions, "of each measurement, in turn")->check(CLI::Range(1, 1000));
+  bool baked = false;
+  rays->add_flag("--baked", baked, "tiny scenes by their baked primitives");
   rays->add_flag("--json", json);
+
+  CLI::App* bounces = app.add_subcommand("bounces", "the same of rays made where they are traced, in tiny scenes");
+  std::string bounces_scene;
+  int bounces_repetitions = 5;
+  bounces->add_option("--scene", bounces_scene, "one scene only")->check(CLI::IsMember(tiny_scene_names()));
+  bounces->add_option("--repetitions", bounces_repetitions, "of each measurement, in turn")->check(CLI::Range(1, 1000));
+  bounces->add_flag("--json", json);
 
   CLI::App* paths = app.add_subcommand("paths", "paths per second of a Cornell box against a path tracer with Embree");
   int paths_repetitions = 3;
@@ -170,7 +197,8 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  if (rays->parsed()) print_rays(bench_rays(scene, repetitions), json);
+  if (rays->parsed()) print_rays(baked ? bench_baked_rays(scene, repetitions) : bench_rays(scene, repetitions), json);
+  if (bounces->parsed()) print_bounces(bench_bounces(bounces_scene, bounces_repetitions), json);
   if (paths->parsed() && !paths_scene.empty()) print_ray_share(bench_ray_share(paths_scene, paths_repetitions), json);
   if (paths->parsed() && paths_scene.empty()) print_paths(bench_paths(paths_repetitions), json);
   if (build->parsed()) print_build(bench_build(build_mesh, build_repetitions), json);

@@ -28,12 +28,6 @@ std::vector<TraceRay> make_primary(const Camera& camera) {
   return rays;
 }
 
-glm::vec3 cosine_direction(const glm::vec3& n, Pcg32& random) {
-  const glm::vec3 d = n + random.direction();
-  const float length = glm::length(d);
-  return length > 1e-3f ? d / length : n;
-}
-
 }  // namespace
 
 std::vector<RaySet> make_ray_sets(const BenchScene& scene, const EmbreeScene& embree) {
@@ -54,7 +48,7 @@ std::vector<RaySet> make_ray_sets(const BenchScene& scene, const EmbreeScene& em
         glm::cross(scene.mesh.vertices[triangle.y] - v0, scene.mesh.vertices[triangle.z] - v0));
     if (glm::dot(n, primary[i].direction) > 0) n = -n;
     const glm::vec3 p = primary[i].origin + hits[i].t * primary[i].direction + n * (1e-4f * hits[i].t);
-    sets[1].rays.push_back({p, std::numeric_limits<float>::infinity(), cosine_direction(n, random), gpu::kNoHit});
+    sets[1].rays.push_back({p, std::numeric_limits<float>::infinity(), random.cosine_direction(n), gpu::kNoHit});
     const float u = random.uniform(), v = random.uniform();
     const glm::vec3 target = scene.light.corner + u * scene.light.edge_u + v * scene.light.edge_v;
     const float distance = glm::length(target - p);

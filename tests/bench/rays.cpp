@@ -6,11 +6,13 @@
 
 #include "accel/bvh.h"
 #include "base/timer.h"
+#include "bench/diffuse_scene.h"
 #include "bench/embree_scene.h"
 #include "bench/ray_sets.h"
 #include "bench/scenes.h"
 #include "support/tracer.h"
 #include "vulkan/device.h"
+#include "vulkan/vector_width.h"
 
 namespace tachylite::bench {
 namespace {
@@ -54,6 +56,14 @@ RaysResult bench_set(const RaySet& set, const EmbreeScene& embree, Tracer& trace
   return result;
 }
 
+void bench_sets(const BenchScene& scene, Tracer& tracer, int repetitions, std::vector<RaysResult>& results) {
+  const EmbreeScene embree(scene.mesh);
+  for (const RaySet& set : make_ray_sets(scene, embree)) {
+    results.push_back(bench_set(set, embree, tracer, repetitions));
+    results.back().scene = scene.name;
+  }
+}
+
 }  // namespace
 
 std::vector<RaysResult> bench_rays(const std::string& only, int repetitions) {
@@ -62,15 +72,23 @@ std::vector<RaysResult> bench_rays(const std::string& only, int repetitions) {
   for (const std::string& name : scene_names()) {
     if (!only.empty() && name != only) continue;
     const BenchScene scene = make_scene(name);
-    const EmbreeScene embree(scene.mesh);
     BvhInput input;
     input.vertices = scene.mesh.vertices;
     input.triangles = scene.mesh.triangles;
     Tracer tracer(device, build_bvh8(input));
-    for (const RaySet& set : make_ray_sets(scene, embree)) {
-      results.push_back(bench_set(set, embree, tracer, repetitions));
-      results.back().scene = name;
-    }
+    bench_sets(scene, tracer, repetitions, results);
+  }
+  return results;
+}
+
+std::vector<RaysResult> bench_baked_rays(const std::string& only, int repetitions) {
+  std::vector<RaysResult> results;
+  vulkan::prefer_wide_vectors();
+  vulkan::Device device;
+  for (const std::string& name : only.empty() ? tiny_scene_names() : std::vector{only}) {
+    const BenchScene scene = make_scene(name);
+    Tracer tracer(device, bake_scene(scene));
+    bench_sets(scene, tracer, repetitions, results);
   }
   return results;
 }

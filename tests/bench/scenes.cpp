@@ -15,16 +15,31 @@ void add_light(BenchScene& scene) {
 }
 
 BenchScene make_cornell() {
-  BenchScene scene{"cornell", {}, {{0, -3.4f, 0}, {0, 0, 0}, 40, 512}, {{-0.25f, -0.2f, 0.995f}, {0, 0.4f, 0}, {0.5f, 0, 0}}};
-  scene.mesh.add_box({0, -1.25f, 0}, {1, 0, 0}, {0, 2.25f, 0}, {0, 0, 1});
+  BenchScene scene{
+      "cornell", {}, {{0, -2.15f, 0}, {0, 1.25f, 0}, 40, 512}, {{-0.25f, 1.05f, 0.995f}, {0, 0.4f, 0}, {0.5f, 0, 0}}};
+  scene.mesh.add_box({0, 0, 0}, {1, 0, 0}, {0, 2.25f, 0}, {0, 0, 1});
   const auto rotated = [](float angle, float half) {
     return std::pair{glm::vec3(glm::cos(angle), glm::sin(angle), 0) * half,
                      glm::vec3(-glm::sin(angle), glm::cos(angle), 0) * half};
   };
   const auto [tall_x, tall_y] = rotated(0.30f, 0.3f);
-  scene.mesh.add_box({-0.34f, 0.30f, -0.4f}, tall_x, tall_y, {0, 0, 0.6f});
+  scene.mesh.add_box({-0.34f, 1.55f, -0.4f}, tall_x, tall_y, {0, 0, 0.6f});
   const auto [short_x, short_y] = rotated(-0.28f, 0.3f);
-  scene.mesh.add_box({0.34f, -0.35f, -0.7f}, short_x, short_y, {0, 0, 0.3f});
+  scene.mesh.add_box({0.34f, 0.90f, -0.7f}, short_x, short_y, {0, 0, 0.3f});
+  add_light(scene);
+  return scene;
+}
+
+BenchScene make_plates() {
+  BenchScene scene{
+      "plates", {}, {{0, -0.9f, 0}, {0, 0, 0}, 80, 512}, {{-0.25f, -0.25f, 0.995f}, {0, 0.5f, 0}, {0.5f, 0, 0}}};
+  scene.mesh.add_box({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
+  Pcg32 random(3);
+  for (int i = 0; i < 12; ++i) {
+    const glm::vec3 centre = random.in_box({-0.6f, -0.4f, -0.7f}, {0.6f, 0.7f, 0.6f}), u = 0.4f * random.direction();
+    const glm::vec3 v = 0.4f * glm::normalize(glm::cross(u, random.direction()));
+    scene.mesh.add_parallelogram(centre - 0.5f * (u + v), u, v);
+  }
   add_light(scene);
   return scene;
 }
@@ -59,11 +74,13 @@ BenchScene make_room(const std::string& name, uint32_t rings, uint32_t segments)
 
 BenchScene make_scene(const std::string& name) {
   if (name == "cornell") return make_cornell();
+  if (name == "plates") return make_plates();
   if (name == "room") return make_room(name, 32, 64);
   if (name == "big") return make_room(name, 90, 180);
   throw std::invalid_argument("no bench scene is called " + name);
 }
 
-std::vector<std::string> scene_names() { return {"room", "cornell", "big"}; }
+std::vector<std::string> scene_names() { return {"room", "cornell", "plates", "big"}; }
+std::vector<std::string> tiny_scene_names() { return {"cornell", "plates"}; }
 
 }  // namespace tachylite::bench

@@ -25,10 +25,13 @@ struct BenchScene {
   RectangleLight light;  // where shadow rays end; lies in front of the ceiling
 };
 
-/// "cornell": 38 triangles, the box closed behind the camera. "room": 240 thousand triangles, 60 displaced spheres,
-/// boxes and thin columns. "big": the same with spheres of 32 thousand triangles each, 1.9 million in all.
-/// Throws std::invalid_argument for another name.
+/// "cornell": 38 triangles, the box closed behind the camera. "plates": 38, twelve tilted squares in a cube. "room":
+/// 240 thousand triangles, 60 displaced spheres, boxes and thin columns. "big": the same with spheres of 32 thousand
+/// triangles each, 1.9 million in all. Throws std::invalid_argument for another name.
 BenchScene make_scene(const std::string& name);
 std::vector<std::string> scene_names();
+/// Those whose primitives can be constants of kernels (pack/bake_geometry.h). They are centred at the origin, as
+/// packing does it.
+std::vector<std::string> tiny_scene_names();
 
 }  // namespace tachylite::bench

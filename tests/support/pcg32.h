@@ -33,6 +33,12 @@ class Pcg32 {
     const float r = glm::sqrt(glm::max(0.0f, 1 - z * z));
     return {r * glm::cos(phi), r * glm::sin(phi), z};
   }
+  /// Cosine-distributed about the unit n.
+  glm::vec3 cosine_direction(const glm::vec3& n) {
+    const glm::vec3 d = n + direction();
+    const float length = glm::length(d);
+    return length > 1e-3f ? d / length : n;
+  }
 
  private:
   uint64_t state_;

@@ -28,6 +28,9 @@ Tracer::Tracer(vulkan::Device& device, const Bvh8& bvh)
   constants_[gpu::kFeatureTriangles] = bvh.statistics.leaves > bvh.statistics.curved;
 }
 
+Tracer::Tracer(vulkan::Device& device, const BakedGeometry& baked)
+    : device_(device), commands_(device), baked_(true), constants_(baked.constants) {}
+
 Tracer::~Tracer() = default;
 
 void Tracer::set_rays(std::span<const TraceRay> rays) {
@@ -37,7 +40,7 @@ void Tracer::set_rays(std::span<const TraceRay> rays) {
   hits_ = vulkan::Buffer(device_, rays.size() * sizeof(TraceHit));
   using vulkan::BindingKind;
   const std::array<vulkan::Binding, 4> bindings{
-      {{gpu::kBindBvhNodes, BindingKind::kTexel, &nodes_, VK_FORMAT_R32G32B32A32_UINT},
+      {{gpu::kBindBvhNodes, BindingKind::kTexel, nodes_ ? &nodes_ : nullptr, VK_FORMAT_R32G32B32A32_UINT},
        {gpu::kBindBvhLeaves, BindingKind::kTexel, leaves_ ? &leaves_ : nullptr, VK_FORMAT_R32G32B32A32_SFLOAT},
        {gpu::kBindPathTexels, BindingKind::kTexel, &rays_, VK_FORMAT_R32G32B32A32_SFLOAT},
        {gpu::kBindPaths, BindingKind::kStorage, &hits_, VK_FORMAT_UNDEFINED}}};
@@ -45,10 +48,11 @@ void Tracer::set_rays(std::span<const TraceRay> rays) {
 }
 
 void Tracer::run(Query query, Form form) {
-  const bool any = query == Query::kAny, plain = form == Form::kPlain;
+  const bool any = query == Query::kAny, plain = form == Form::kPlain || baked_;
   std::optional<vulkan::Kernel>& kernel = kernels_->kernels[2 * any + plain];
   if (!kernel) {
-    const std::string name = std::string(any ? "trace_any" : "trace_closest") + (plain ? "_plain" : "");
+    const std::string form_name = baked_ ? "_baked" : plain ? "_plain" : "";
+    const std::string name = (any ? "trace_any" : "trace_closest") + form_name;
     kernel.emplace(device_, kernels_->table, name, test_kernel_spirv(name), constants_);
   }
   const uint32_t per_group = plain ? kPlainRaysPerGroup : kRaysPerGroup;

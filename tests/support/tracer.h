@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "accel/bvh.h"
+#include "pack/bake_geometry.h"
 #include "vulkan/commands.h"
 
 namespace tachylite::test {
@@ -20,19 +21,20 @@ struct TraceRay {
 
 /// One row. What t is without a hit: t_max.
 struct TraceHit {
-  uint32_t id = gpu::kNoHit;  // 2 * leaf + triangle
+  uint32_t id = gpu::kNoHit;  // 2 * leaf + triangle; in baked geometry the primitive's rows
   float b1 = 0, b2 = 0;       // barycentrics of the leaf's second and third vertex of that triangle
   float t = 0;
 };
 
 /// The traversal of shaders/geometry/bvh.glsl on a device: closest hits or any hits, with lanes refilled
-/// (trace_rays.glsl) or one ray a lane.
+/// (trace_rays.glsl) or one ray a lane. Of baked geometry the tests of baked.glsl, one ray a lane, in either form.
 class Tracer {
  public:
   enum class Query { kClosest, kAny };
   enum class Form { kRefill, kPlain };
 
   Tracer(vulkan::Device& device, const Bvh8& bvh);
+  Tracer(vulkan::Device& device, const BakedGeometry& baked);
   ~Tracer();
 
   void set_rays(std::span<const TraceRay> rays);
@@ -49,6 +51,7 @@ class Tracer {
   struct Kernels;
   vulkan::Device& device_;
   vulkan::Commands commands_;
+  bool baked_ = false;
   vulkan::SpecializationConstants constants_;
   vulkan::Buffer nodes_, leaves_, rays_, hits_;
   uint32_t count_ = 0;
