@@ -18,13 +18,13 @@ struct Move {
 class Reinserter {
  public:
   /// Moves only the children of the `most` largest nodes.
-  Reinserter(std::vector<BinaryNode>& nodes, size_t most)
+  Reinserter(std::span<BinaryNode> nodes, size_t most)
       : nodes_(nodes), parents_(nodes.size() / 2, 0), settled_(nodes.size(), 0), touched_(nodes.size(), 0) {
     parallel_for(BinaryBvh::kRoot, nodes.size(), kMeshGrain, [&](size_t first, size_t last) {
       for (size_t i = first; i < last; ++i)
         if (!nodes_[i].is_leaf) parents_[nodes_[i].first / 2] = static_cast<uint32_t>(i);
     });
-    std::vector<Candidate> parents(nodes.size() / 2 - 1);
+    BulkVector<Candidate> parents(nodes.size() / 2 - 1);
     parallel_for(0, parents.size(), kMeshGrain, [&](size_t first, size_t last) {
       for (size_t i = first; i < last; ++i) {
         const uint32_t parent = parents_[i + 1];
@@ -71,7 +71,7 @@ class Reinserter {
     uint32_t node;
   };
 
-  static void keep_best(std::vector<Candidate>& candidates, size_t count) {
+  static void keep_best(BulkVector<Candidate>& candidates, size_t count) {
     if (count >= candidates.size()) return;
     std::nth_element(candidates.begin(), candidates.begin() + static_cast<ptrdiff_t>(count), candidates.end(),
                      [](const Candidate& a, const Candidate& b) {
@@ -81,8 +81,8 @@ class Reinserter {
   }
 
   /// The `count` nodes whose removal alone saves most, as it puts the sibling in the parent's place.
-  std::vector<Candidate> misplaced_nodes(size_t count) const {
-    std::vector<Candidate> all;
+  BulkVector<Candidate> misplaced_nodes(size_t count) const {
+    BulkVector<Candidate> all;
     all.reserve(movable_.size());
     for (uint32_t node : movable_)
       if (!settled_[node])
@@ -91,7 +91,7 @@ class Reinserter {
     return all;
   }
 
-  std::vector<Move> find_moves(const std::vector<Candidate>& candidates) const {
+  std::vector<Move> find_moves(std::span<const Candidate> candidates) const {
     std::vector<Move> moves(candidates.size());
     parallel_for(0, candidates.size(), 256, [&](size_t first, size_t last) {
       std::vector<Pending> stack;
@@ -196,8 +196,8 @@ class Reinserter {
     return m.target == BinaryBvh::kRoot ? saved : saved + refit(parent(m.target));
   }
 
-  std::vector<BinaryNode>& nodes_;
-  std::vector<uint32_t> parents_;  // of each sibling pair
+  const std::span<BinaryNode> nodes_;
+  BulkVector<uint32_t> parents_;  // of each sibling pair
   std::vector<uint32_t> movable_;
   std::vector<uint8_t> settled_;  // nodes that found no better place
   std::vector<uint8_t> touched_;  // in this pass
