@@ -58,15 +58,15 @@ class Builder {
   }
 
  private:
-  Box range_box(size_t begin, size_t end) const {
-    Box b;
-    for (size_t i = begin; i < end; ++i) b.grow(primitives_[i].box());
-    return b;
-  }
   Box range_centres(size_t begin, size_t end) const {
-    Box b;
-    for (size_t i = begin; i < end; ++i) b.grow(centre2(primitives_[i].box()));
-    return b;
+    return parallel_reduce<Box>(
+        begin, end,
+        [&](size_t first, size_t last) {
+          Box b;
+          for (size_t i = first; i < last; ++i) b.grow(centre2(primitives_[i].box()));
+          return b;
+        },
+        merge);
   }
 
   /// The subtree over primitives [begin, end); its inner nodes' children are the sibling pairs begin + 1,

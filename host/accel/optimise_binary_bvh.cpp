@@ -71,22 +71,33 @@ class Reinserter {
     uint32_t node;
   };
 
+  /// They stay in order, so that what looks at their nodes goes through memory in that of the tree.
   static void keep_best(BulkVector<Candidate>& candidates, size_t count) {
     if (count >= candidates.size()) return;
-    std::nth_element(candidates.begin(), candidates.begin() + static_cast<ptrdiff_t>(count), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) {
-                       return a.area > b.area || (a.area == b.area && a.node < b.node);
-                     });
-    candidates.resize(count);
+    const auto better = [](const Candidate& a, const Candidate& b) {
+      return a.area > b.area || (a.area == b.area && a.node < b.node);
+    };
+    BulkVector<Candidate> ranked = candidates;
+    const auto first_left_out = ranked.begin() + static_cast<ptrdiff_t>(count);
+    std::nth_element(ranked.begin(), first_left_out, ranked.end(), better);
+    std::erase_if(candidates, [&](const Candidate& c) { return !better(c, *first_left_out); });
   }
 
   /// The `count` nodes whose removal alone saves most, as it puts the sibling in the parent's place.
   BulkVector<Candidate> misplaced_nodes(size_t count) const {
-    BulkVector<Candidate> all;
-    all.reserve(movable_.size());
-    for (uint32_t node : movable_)
-      if (!settled_[node])
-        all.push_back({half_area(nodes_[parent(node)].box()) - half_area(nodes_[node ^ 1].box()), node});
+    BulkVector<Candidate> all(movable_.size());
+    const auto movable = [&](size_t first, size_t last) { return std::span(movable_).subspan(first, last - first); };
+    all.resize(parallel_scan(
+        movable_.size(),
+        [&](size_t first, size_t last) {
+          return static_cast<size_t>(
+              std::ranges::count_if(movable(first, last), [&](uint32_t node) { return !settled_[node]; }));
+        },
+        [&](size_t first, size_t last, size_t at) {
+          for (uint32_t node : movable(first, last))
+            if (!settled_[node])
+              all[at++] = {half_area(nodes_[parent(node)].box()) - half_area(nodes_[node ^ 1].box()), node};
+        }));
     keep_best(all, count);
     return all;
   }
@@ -211,9 +222,8 @@ double optimise_binary_bvh(BinaryBvh& bvh, int max_passes) {
   constexpr size_t kLeast = 2000;      // of either
   constexpr double kWorthwhile = 1e-4;  // of the total area, in a pass
   if (bvh.nodes.size() < 8) return 0;
-  double area = 0, saved = 0;
-  for (size_t i = BinaryBvh::kRoot; i < bvh.nodes.size(); ++i)
-    if (!bvh.nodes[i].is_leaf) area += half_area(bvh.nodes[i].box());
+  const double area = expected_visits(bvh).inner * half_area(bvh.nodes[BinaryBvh::kRoot].box());
+  double saved = 0;
   const auto part = [&](double fraction) {
     return std::max<size_t>(static_cast<size_t>(fraction * static_cast<double>(bvh.nodes.size())), kLeast);
   };
