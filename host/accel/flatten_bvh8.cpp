@@ -101,6 +101,8 @@ class Flattener {
       uint32_t binary, address;
       int depth;
     };
+    part.leaf_primitives.reserve(collapse_.leaves(part.root));
+    part.nodes.reserve(collapse_.leaves(part.root) / 4);  // most have five children or more
     std::vector<Entry> stack{{part.root, part.root_address, part.depth}};
     while (!stack.empty()) {
       const Entry e = stack.back();

@@ -72,22 +72,22 @@ class Reinserter {
   };
 
   /// They stay in order, so that what looks at their nodes goes through memory in that of the tree.
-  static void keep_best(BulkVector<Candidate>& candidates, size_t count) {
+  void keep_best(BulkVector<Candidate>& candidates, size_t count) {
     if (count >= candidates.size()) return;
     const auto better = [](const Candidate& a, const Candidate& b) {
       return a.area > b.area || (a.area == b.area && a.node < b.node);
     };
-    BulkVector<Candidate> ranked = candidates;
-    const auto first_left_out = ranked.begin() + static_cast<ptrdiff_t>(count);
-    std::nth_element(ranked.begin(), first_left_out, ranked.end(), better);
+    ranked_.assign(candidates.begin(), candidates.end());
+    const auto first_left_out = ranked_.begin() + static_cast<ptrdiff_t>(count);
+    std::nth_element(ranked_.begin(), first_left_out, ranked_.end(), better);
     std::erase_if(candidates, [&](const Candidate& c) { return !better(c, *first_left_out); });
   }
 
   /// The `count` nodes whose removal alone saves most, as it puts the sibling in the parent's place.
-  BulkVector<Candidate> misplaced_nodes(size_t count) const {
-    BulkVector<Candidate> all(movable_.size());
+  std::span<const Candidate> misplaced_nodes(size_t count) {
+    misplaced_.resize(movable_.size());
     const auto movable = [&](size_t first, size_t last) { return std::span(movable_).subspan(first, last - first); };
-    all.resize(parallel_scan(
+    misplaced_.resize(parallel_scan(
         movable_.size(),
         [&](size_t first, size_t last) {
           return static_cast<size_t>(
@@ -96,10 +96,10 @@ class Reinserter {
         [&](size_t first, size_t last, size_t at) {
           for (uint32_t node : movable(first, last))
             if (!settled_[node])
-              all[at++] = {half_area(nodes_[parent(node)].box()) - half_area(nodes_[node ^ 1].box()), node};
+              misplaced_[at++] = {half_area(nodes_[parent(node)].box()) - half_area(nodes_[node ^ 1].box()), node};
         }));
-    keep_best(all, count);
-    return all;
+    keep_best(misplaced_, count);
+    return misplaced_;
   }
 
   std::vector<Move> find_moves(std::span<const Candidate> candidates) const {
@@ -210,6 +210,7 @@ class Reinserter {
   const std::span<BinaryNode> nodes_;
   BulkVector<uint32_t> parents_;  // of each sibling pair
   std::vector<uint32_t> movable_;
+  BulkVector<Candidate> misplaced_, ranked_;  // kept, so that not every pass touches new memory
   std::vector<uint8_t> settled_;  // nodes that found no better place
   std::vector<uint8_t> touched_;  // in this pass
 };
