@@ -21,7 +21,7 @@ constexpr std::array<uint8_t, kSets> kSize = [] {
 
 class SlotAssignment {
  public:
-  SlotAssignment(const std::vector<BinaryNode>& nodes, const WideChildren& inner, uint32_t count,
+  SlotAssignment(std::span<const BinaryNode> nodes, const WideChildren& inner, uint32_t count,
                  uint32_t free_sides)
       : count_(count), free_sides_(free_sides) {
     std::array<Box, kBvhWidth> boxes;
@@ -122,7 +122,7 @@ class SlotAssignment {
 
 }  // namespace
 
-WideChildren assign_slots(const std::vector<BinaryNode>& nodes, const WideChildren& children) {
+WideChildren assign_slots(std::span<const BinaryNode> nodes, const WideChildren& children) {
   // Where slots are free to choose, nodes choose differently, so that more of them can share a block of
   // addresses.
   const uint32_t free_sides = (children[0] * 0x9e3779b9u) >> 29;

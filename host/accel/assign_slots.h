@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <span>
 
 #include "accel/collapse_bvh8.h"
 
@@ -11,6 +11,6 @@ namespace tachylite {
 /// along one axis: that of the highest bit in which their slots differ. Of all assignments this is the one
 /// with the greatest expected number of pairs in the right order, pairs counting by how likely a ray meets
 /// both. Leaves take what slots are left: those that a ray hits are all tested at once.
-WideChildren assign_slots(const std::vector<BinaryNode>& nodes, const WideChildren& children);
+WideChildren assign_slots(std::span<const BinaryNode> nodes, const WideChildren& children);
 
 }  // namespace tachylite

@@ -4,9 +4,9 @@
 // one).
 
 #include <cstdint>
-#include <vector>
 
 #include "accel/box.h"
+#include "base/bulk_vector.h"
 
 namespace tachylite {
 
@@ -36,14 +36,14 @@ struct alignas(16) BinaryNode {
 /// n primitives make 2n nodes, nodes[0] being unused; no primitives, no nodes.
 struct BinaryBvh {
   static constexpr uint32_t kRoot = 1;
-  std::vector<BinaryNode> nodes;
+  BulkVector<BinaryNode> nodes;
 };
 
 /// Binned surface area heuristic (Wald 2007, "On fast Construction of SAH-based Bounding Volume
 /// Hierarchies"), down to one primitive a leaf. `primitives` are leaves in any order (consumed).
 /// Deterministic for any number of threads. No path from the root has more than `max_depth` nodes, if
 /// max_depth > log2(primitives) + 1.
-BinaryBvh build_binary_bvh(std::vector<BinaryNode> primitives, int bins, int max_depth);
+BinaryBvh build_binary_bvh(BulkVector<BinaryNode> primitives, int bins, int max_depth);
 
 /// Lowers the tree's total surface area by moving nodes to better places (Meister and Bittner 2018, "Parallel
 /// Reinsertion for Bounding Volume Hierarchy Optimization"), until a pass gains little. Deterministic.

@@ -46,27 +46,27 @@ struct Bin {
 
 class Builder {
  public:
-  Builder(std::vector<BinaryNode>& primitives, int bins, int max_depth)
+  Builder(BulkVector<BinaryNode>& primitives, int bins, int max_depth)
       : primitives_(primitives),
         bins_(std::min(bins, kMaxBins)),
         max_depth_(max_depth),
         nodes_(2 * primitives.size()) {}
 
-  std::vector<BinaryNode> run() {
+  BulkVector<BinaryNode> run() {
     build(BinaryBvh::kRoot, 0, primitives_.size(), range_centres(0, primitives_.size()), 1);
     return std::move(nodes_);
   }
 
  private:
-  Box range_box(size_t begin, size_t end) const {
-    Box b;
-    for (size_t i = begin; i < end; ++i) b.grow(primitives_[i].box());
-    return b;
-  }
   Box range_centres(size_t begin, size_t end) const {
-    Box b;
-    for (size_t i = begin; i < end; ++i) b.grow(centre2(primitives_[i].box()));
-    return b;
+    return parallel_reduce<Box>(
+        begin, end,
+        [&](size_t first, size_t last) {
+          Box b;
+          for (size_t i = first; i < last; ++i) b.grow(centre2(primitives_[i].box()));
+          return b;
+        },
+        merge);
   }
 
   /// The subtree over primitives [begin, end); its inner nodes' children are the sibling pairs begin + 1,
@@ -216,14 +216,14 @@ class Builder {
     return best;
   }
 
-  std::vector<BinaryNode>& primitives_;
+  BulkVector<BinaryNode>& primitives_;
   const int bins_, max_depth_;
-  std::vector<BinaryNode> nodes_;
+  BulkVector<BinaryNode> nodes_;
 };
 
 }  // namespace
 
-BinaryBvh build_binary_bvh(std::vector<BinaryNode> primitives, int bins, int max_depth) {
+BinaryBvh build_binary_bvh(BulkVector<BinaryNode> primitives, int bins, int max_depth) {
   BinaryBvh bvh;
   if (primitives.empty()) return bvh;
   bvh.nodes = Builder(primitives, bins, max_depth).run();
@@ -231,10 +231,18 @@ BinaryBvh build_binary_bvh(std::vector<BinaryNode> primitives, int bins, int max
 }
 
 ExpectedVisits expected_visits(const BinaryBvh& bvh) {
-  ExpectedVisits sum;
-  if (bvh.nodes.empty()) return sum;
-  for (size_t i = BinaryBvh::kRoot; i < bvh.nodes.size(); ++i)
-    (bvh.nodes[i].is_leaf ? sum.leaves : sum.inner) += half_area(bvh.nodes[i].box());
+  if (bvh.nodes.empty()) return {};
+  const ExpectedVisits sum = parallel_reduce<ExpectedVisits>(
+      BinaryBvh::kRoot, bvh.nodes.size(),
+      [&](size_t first, size_t last) {
+        ExpectedVisits part;
+        for (size_t i = first; i < last; ++i)
+          (bvh.nodes[i].is_leaf ? part.leaves : part.inner) += half_area(bvh.nodes[i].box());
+        return part;
+      },
+      [](const ExpectedVisits& a, const ExpectedVisits& b) {
+        return ExpectedVisits{a.inner + b.inner, a.leaves + b.leaves};
+      });
   const double root = half_area(bvh.nodes[BinaryBvh::kRoot].box());
   return {sum.inner / root, sum.leaves / root};
 }

@@ -58,8 +58,8 @@ void check_curved(const BvhInput& input) {
   }
 }
 
-std::vector<BinaryNode> bound_primitives(const BvhInput& input, const std::vector<TrianglePair>& pairs) {
-  std::vector<BinaryNode> primitives(pairs.size() + input.curved.size());
+BulkVector<BinaryNode> bound_primitives(const BvhInput& input, std::span<const TrianglePair> pairs) {
+  BulkVector<BinaryNode> primitives(pairs.size() + input.curved.size());
   parallel_for(0, primitives.size(), kMeshGrain, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       Box b;
@@ -75,8 +75,8 @@ std::vector<BinaryNode> bound_primitives(const BvhInput& input, const std::vecto
   return primitives;
 }
 
-void write_leaves(const BvhInput& input, const std::vector<TrianglePair>& pairs,
-                  const std::vector<uint32_t>& leaf_primitives, Bvh8& bvh) {
+void write_leaves(const BvhInput& input, std::span<const TrianglePair> pairs,
+                  std::span<const uint32_t> leaf_primitives, Bvh8& bvh) {
   bvh.leaves.resize(leaf_primitives.size() * gpu::kBvhLeafRows);
   bvh.leaf_info.resize(leaf_primitives.size());
   const auto pair_at = [&](size_t i, size_t last) -> const TrianglePair* {
@@ -128,11 +128,11 @@ Bvh8 build_bvh8(const BvhInput& input, const BvhSettings& settings) {
 
   timer = Timer();
   constexpr int kMaxBinaryDepth = 96;
-  std::vector<BinaryNode> primitives = bound_primitives(input, pairing.pairs);
+  BulkVector<BinaryNode> primitives = bound_primitives(input, pairing.pairs);
   const std::vector<uint32_t> walls = choose_walls(input, pairing.pairs, primitives, settings.most_walls);
   Box box;
   for (const uint32_t wall : walls) box.grow(primitives[wall].box());
-  const auto build_without_walls = [&](std::vector<BinaryNode> all, int max_depth) {
+  const auto build_without_walls = [&](BulkVector<BinaryNode> all, int max_depth) {
     const auto is_wall = [&](const BinaryNode& n) { return std::find(walls.begin(), walls.end(), n.first) != walls.end(); };
     if (!walls.empty()) std::erase_if(all, is_wall);
     return build_binary_bvh(std::move(all), settings.bins, max_depth);

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
 
 #include <glm/glm.hpp>
 
+#include "base/bulk_vector.h"
 #include "shared/bvh.h"
 
 namespace tachylite {
@@ -54,9 +54,9 @@ struct BvhStatistics {
 /// The flattened structure in the layout of shared/bvh.h. nodes[0..4] is the root (alone in its block of 8).
 /// An empty input gives a root whose slots are all empty. Leaves from first_wall on are in no node.
 struct Bvh8 {
-  std::vector<glm::uvec4> nodes;      // kBvhNodeRows a node
-  std::vector<glm::vec4> leaves;      // kBvhLeafRows a leaf
-  std::vector<glm::uvec4> leaf_info;  // one a leaf
+  BulkVector<glm::uvec4> nodes;      // kBvhNodeRows a node
+  BulkVector<glm::vec4> leaves;      // kBvhLeafRows a leaf
+  BulkVector<glm::uvec4> leaf_info;  // one a leaf
   uint32_t first_wall = 0;            // leaf; leaf_info.size() where there are none
   glm::vec3 box_min{0}, box_max{0};
   BvhStatistics statistics;

@@ -7,7 +7,7 @@
 
 namespace tachylite {
 
-Bvh8Collapse::Bvh8Collapse(const std::vector<BinaryNode>& nodes)
+Bvh8Collapse::Bvh8Collapse(std::span<const BinaryNode> nodes)
     : nodes_(nodes), subtrees_(nodes.size() / 2) {
   solve(BinaryBvh::kRoot, 0);
 }

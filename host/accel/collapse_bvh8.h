@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
+#include <span>
 
 #include "accel/binary_bvh.h"
 
@@ -19,7 +19,7 @@ using WideChildren = std::array<uint32_t, kBvhWidth>;
 class Bvh8Collapse {
  public:
   /// `nodes` must outlive this and hold a tree.
-  explicit Bvh8Collapse(const std::vector<BinaryNode>& nodes);
+  explicit Bvh8Collapse(std::span<const BinaryNode> nodes);
 
   /// The children of the wide node that takes the place of `node` (which may be a leaf: then it is the only
   /// child).
@@ -45,8 +45,8 @@ class Bvh8Collapse {
   void forest(uint32_t node, uint32_t trees, WideChildren& out, uint32_t& count) const;
   void split(uint32_t node, uint32_t trees, WideChildren& out, uint32_t& count) const;
 
-  const std::vector<BinaryNode>& nodes_;
-  std::vector<Subtree> subtrees_;  // of each inner node, by its sibling pair of children
+  const std::span<const BinaryNode> nodes_;
+  BulkVector<Subtree> subtrees_;  // of each inner node, by its sibling pair of children
 };
 
 }  // namespace tachylite

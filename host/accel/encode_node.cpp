@@ -38,7 +38,7 @@ uint32_t QuantisationGrid::upper(float x) const {
   return q;
 }
 
-ChildAreas encode_node(const std::vector<BinaryNode>& nodes, const WideNode& wide, const CurvedLeaves& curved,
+ChildAreas encode_node(std::span<const BinaryNode> nodes, const WideNode& wide, const CurvedLeaves& curved,
                        glm::uvec4* rows) {
   const BinaryNode& n = nodes[wide.binary];
   const std::array<QuantisationGrid, 3> grid{QuantisationGrid(n.lo[0], n.hi[0]),

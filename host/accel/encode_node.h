@@ -53,7 +53,7 @@ struct ChildAreas {
 };
 
 /// Writes the kBvhNodeRows rows of a node.
-ChildAreas encode_node(const std::vector<BinaryNode>& nodes, const WideNode& wide, const CurvedLeaves& curved,
+ChildAreas encode_node(std::span<const BinaryNode> nodes, const WideNode& wide, const CurvedLeaves& curved,
                        glm::uvec4* rows);
 
 }  // namespace tachylite

@@ -56,7 +56,7 @@ struct Part {
 
 class Flattener {
  public:
-  Flattener(const std::vector<BinaryNode>& nodes, const CurvedLeaves& curved)
+  Flattener(std::span<const BinaryNode> nodes, const CurvedLeaves& curved)
       : nodes_(nodes), curved_(curved), collapse_(nodes) {}
 
   FlatNodes run() {
@@ -101,6 +101,8 @@ class Flattener {
       uint32_t binary, address;
       int depth;
     };
+    part.leaf_primitives.reserve(collapse_.leaves(part.root));
+    part.nodes.reserve(collapse_.leaves(part.root) / 4);  // most have five children or more
     std::vector<Entry> stack{{part.root, part.root_address, part.depth}};
     while (!stack.empty()) {
       const Entry e = stack.back();
@@ -150,7 +152,8 @@ class Flattener {
     if (blocks > kAvailable)
       throw RenderError(
           fmt::format("the BVH needs {} blocks of 8 nodes, {} can be addressed", blocks, kAvailable));
-    flat_.rows.assign(size_t{blocks} * kBvhWidth * gpu::kBvhNodeRows, glm::uvec4(0));
+    flat_.rows.resize(size_t{blocks} * kBvhWidth * gpu::kBvhNodeRows);
+    parallel_fill<glm::uvec4>(flat_.rows, glm::uvec4(0));
     flat_.leaf_primitives.resize(leaves);
   }
 
@@ -168,7 +171,7 @@ class Flattener {
     }
   }
 
-  const std::vector<BinaryNode>& nodes_;
+  const std::span<const BinaryNode> nodes_;
   const CurvedLeaves& curved_;
   const Bvh8Collapse collapse_;
   std::vector<Part> parts_;

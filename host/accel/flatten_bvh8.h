@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -13,8 +12,8 @@ namespace tachylite {
 /// Nodes in the layout of shared/bvh.h, and the primitives of the binary BVH's leaves in the order of its
 /// leaves.
 struct FlatNodes {
-  std::vector<glm::uvec4> rows;
-  std::vector<uint32_t> leaf_primitives;
+  BulkVector<glm::uvec4> rows;
+  BulkVector<uint32_t> leaf_primitives;
   uint64_t nodes = 0, children = 0;
   int depth = 0;
   double node_visits = 0,

@@ -18,13 +18,13 @@ struct Move {
 class Reinserter {
  public:
   /// Moves only the children of the `most` largest nodes.
-  Reinserter(std::vector<BinaryNode>& nodes, size_t most)
+  Reinserter(std::span<BinaryNode> nodes, size_t most)
       : nodes_(nodes), parents_(nodes.size() / 2, 0), settled_(nodes.size(), 0), touched_(nodes.size(), 0) {
     parallel_for(BinaryBvh::kRoot, nodes.size(), kMeshGrain, [&](size_t first, size_t last) {
       for (size_t i = first; i < last; ++i)
         if (!nodes_[i].is_leaf) parents_[nodes_[i].first / 2] = static_cast<uint32_t>(i);
     });
-    std::vector<Candidate> parents(nodes.size() / 2 - 1);
+    BulkVector<Candidate> parents(nodes.size() / 2 - 1);
     parallel_for(0, parents.size(), kMeshGrain, [&](size_t first, size_t last) {
       for (size_t i = first; i < last; ++i) {
         const uint32_t parent = parents_[i + 1];
@@ -71,27 +71,38 @@ class Reinserter {
     uint32_t node;
   };
 
-  static void keep_best(std::vector<Candidate>& candidates, size_t count) {
+  /// They stay in order, so that what looks at their nodes goes through memory in that of the tree.
+  void keep_best(BulkVector<Candidate>& candidates, size_t count) {
     if (count >= candidates.size()) return;
-    std::nth_element(candidates.begin(), candidates.begin() + static_cast<ptrdiff_t>(count), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) {
-                       return a.area > b.area || (a.area == b.area && a.node < b.node);
-                     });
-    candidates.resize(count);
+    const auto better = [](const Candidate& a, const Candidate& b) {
+      return a.area > b.area || (a.area == b.area && a.node < b.node);
+    };
+    ranked_.assign(candidates.begin(), candidates.end());
+    const auto first_left_out = ranked_.begin() + static_cast<ptrdiff_t>(count);
+    std::nth_element(ranked_.begin(), first_left_out, ranked_.end(), better);
+    std::erase_if(candidates, [&](const Candidate& c) { return !better(c, *first_left_out); });
   }
 
   /// The `count` nodes whose removal alone saves most, as it puts the sibling in the parent's place.
-  std::vector<Candidate> misplaced_nodes(size_t count) const {
-    std::vector<Candidate> all;
-    all.reserve(movable_.size());
-    for (uint32_t node : movable_)
-      if (!settled_[node])
-        all.push_back({half_area(nodes_[parent(node)].box()) - half_area(nodes_[node ^ 1].box()), node});
-    keep_best(all, count);
-    return all;
+  std::span<const Candidate> misplaced_nodes(size_t count) {
+    misplaced_.resize(movable_.size());
+    const auto movable = [&](size_t first, size_t last) { return std::span(movable_).subspan(first, last - first); };
+    misplaced_.resize(parallel_scan(
+        movable_.size(),
+        [&](size_t first, size_t last) {
+          return static_cast<size_t>(
+              std::ranges::count_if(movable(first, last), [&](uint32_t node) { return !settled_[node]; }));
+        },
+        [&](size_t first, size_t last, size_t at) {
+          for (uint32_t node : movable(first, last))
+            if (!settled_[node])
+              misplaced_[at++] = {half_area(nodes_[parent(node)].box()) - half_area(nodes_[node ^ 1].box()), node};
+        }));
+    keep_best(misplaced_, count);
+    return misplaced_;
   }
 
-  std::vector<Move> find_moves(const std::vector<Candidate>& candidates) const {
+  std::vector<Move> find_moves(std::span<const Candidate> candidates) const {
     std::vector<Move> moves(candidates.size());
     parallel_for(0, candidates.size(), 256, [&](size_t first, size_t last) {
       std::vector<Pending> stack;
@@ -196,9 +207,10 @@ class Reinserter {
     return m.target == BinaryBvh::kRoot ? saved : saved + refit(parent(m.target));
   }
 
-  std::vector<BinaryNode>& nodes_;
-  std::vector<uint32_t> parents_;  // of each sibling pair
+  const std::span<BinaryNode> nodes_;
+  BulkVector<uint32_t> parents_;  // of each sibling pair
   std::vector<uint32_t> movable_;
+  BulkVector<Candidate> misplaced_, ranked_;  // kept, so that not every pass touches new memory
   std::vector<uint8_t> settled_;  // nodes that found no better place
   std::vector<uint8_t> touched_;  // in this pass
 };
@@ -211,9 +223,8 @@ double optimise_binary_bvh(BinaryBvh& bvh, int max_passes) {
   constexpr size_t kLeast = 2000;      // of either
   constexpr double kWorthwhile = 1e-4;  // of the total area, in a pass
   if (bvh.nodes.size() < 8) return 0;
-  double area = 0, saved = 0;
-  for (size_t i = BinaryBvh::kRoot; i < bvh.nodes.size(); ++i)
-    if (!bvh.nodes[i].is_leaf) area += half_area(bvh.nodes[i].box());
+  const double area = expected_visits(bvh).inner * half_area(bvh.nodes[BinaryBvh::kRoot].box());
+  double saved = 0;
   const auto part = [&](double fraction) {
     return std::max<size_t>(static_cast<size_t>(fraction * static_cast<double>(bvh.nodes.size())), kLeast);
   };

@@ -5,6 +5,9 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <utility>
+#include <vector>
 
 #include "accel/box.h"
 #include "base/check.h"
@@ -14,7 +17,7 @@
 namespace tachylite {
 namespace {
 
-constexpr uint32_t kNone = 0xffffffffu;
+constexpr uint32_t kNone = 0xffffffffu, kDropped = kNone - 1;
 
 Lanes lanes(const glm::vec3& v) {
   return Lanes{v.x, v.y, v.z, 0};
@@ -50,10 +53,11 @@ void check_vertices(const BvhInput& input) {
 
 /// For each vertex the lowest-numbered vertex of the same bits. Open addressing; which thread comes first
 /// changes the table but not the answer.
-std::vector<uint32_t> find_representatives(std::span<const glm::vec3> vertices) {
+BulkVector<uint32_t> find_representatives(std::span<const glm::vec3> vertices) {
   const size_t n = vertices.size();
   const size_t mask = std::bit_ceil(std::max<size_t>(2 * n, 16)) - 1;
-  std::vector<uint32_t> table(mask + 1, kNone), slots(n);
+  BulkVector<uint32_t> table(mask + 1), slots(n);
+  parallel_fill<uint32_t>(table, kNone);
   const auto slot_of = [&](const glm::vec3& p) {
     uint32_t bits[3];
     std::memcpy(bits, &p, sizeof bits);
@@ -100,9 +104,12 @@ class Matcher {
   Matcher(const BvhInput& input, double max_area_ratio)
       : input_(input),
         max_area_ratio_(static_cast<float>(max_area_ratio)),
-        partner_(3 * input.triangles.size(), kNone),
+        partner_(3 * input.triangles.size()),
         gain_(3 * input.triangles.size()),
-        mate_(input.triangles.size(), kNone) {}
+        mate_(input.triangles.size()) {
+    parallel_fill<uint32_t>(partner_, kNone);
+    parallel_fill<uint32_t>(mate_, kNone);
+  }
 
   Pairing run() {
     find_partners(find_representatives(input_.vertices));
@@ -113,37 +120,34 @@ class Matcher {
  private:
   static uint32_t edge_end(uint32_t e) { return e == 2 ? 0 : e + 1; }
 
-  void find_partners(const std::vector<uint32_t>& vertex) {
-    const size_t triangles = input_.triangles.size();
-    // Bucket the half edges by their lower vertex: upper vertex << 32 | half edge << 1 | runs downwards.
-    std::vector<uint32_t> bucket(input_.vertices.size() + 1, 0);
-    const auto for_half_edges = [&](const auto& body) {
-      parallel_for(0, triangles, kMeshGrain, [&](size_t first, size_t last) {
-        for (size_t t = first; t < last; ++t) {
-          if (!has_area(input_, static_cast<uint32_t>(t))) continue;
-          const glm::uvec3 v = input_.triangles[t];
-          for (uint32_t e = 0; e < 3; ++e)
-            body(static_cast<uint32_t>(3 * t + e), vertex[v[e]], vertex[v[edge_end(e)]]);
+  void find_partners(std::span<const uint32_t> vertex) {
+    // List the half edges of each lower vertex; partner_ is the next of the list, for now.
+    BulkVector<uint32_t> lists(vertex.size());
+    parallel_fill<uint32_t>(lists, kNone);
+    BulkVector<uint64_t> edges(partner_.size());  // upper vertex << 32 | half edge << 1 | runs downwards
+    parallel_for(0, input_.triangles.size(), kMeshGrain, [&](size_t first, size_t last) {
+      for (size_t t = first; t < last; ++t) {
+        if (!has_area(input_, static_cast<uint32_t>(t))) {
+          mate_[t] = kDropped;
+          continue;
         }
-      });
-    };
-    for_half_edges([&](uint32_t half_edge, uint32_t from, uint32_t to) {  // partner_: the place in the bucket, for now
-      partner_[half_edge] =
-          std::atomic_ref<uint32_t>(bucket[std::min(from, to) + 1]).fetch_add(1, std::memory_order_relaxed);
+        const glm::uvec3 v = input_.triangles[t];
+        for (uint32_t e = 0; e < 3; ++e) {
+          const auto h = static_cast<uint32_t>(3 * t + e);
+          const uint32_t from = vertex[v[e]], to = vertex[v[edge_end(e)]];
+          edges[h] = static_cast<uint64_t>(std::max(from, to)) << 32 | static_cast<uint64_t>(h) << 1 | (from > to);
+          partner_[h] = std::atomic_ref<uint32_t>(lists[std::min(from, to)]).exchange(h, std::memory_order_relaxed);
+        }
+      }
     });
-    for (size_t v = 1; v < bucket.size(); ++v) bucket[v] += bucket[v - 1];
-    std::vector<uint64_t> edges(bucket.back());
-    for_half_edges([&](uint32_t half_edge, uint32_t from, uint32_t to) {
-      edges[bucket[std::min(from, to)] + partner_[half_edge]] =
-          static_cast<uint64_t>(std::max(from, to)) << 32 | static_cast<uint64_t>(half_edge) << 1 | (from > to);
-      partner_[half_edge] = kNone;
-    });
-    // Sorting makes their order independent of the threads.
-    parallel_for(0, input_.vertices.size(), kMeshGrain, [&](size_t first, size_t last) {
+    parallel_for(0, lists.size(), kMeshGrain, [&](size_t first, size_t last) {
+      std::vector<uint64_t> listed;
       for (size_t v = first; v < last; ++v) {
-        const auto begin = edges.begin() + bucket[v], end = edges.begin() + bucket[v + 1];
-        std::sort(begin, end);
-        for (auto run = begin; run != end;) {
+        listed.clear();
+        for (uint32_t h = lists[v]; h != kNone; h = std::exchange(partner_[h], kNone)) listed.push_back(edges[h]);
+        std::sort(listed.begin(), listed.end());  // makes their order independent of the threads
+        const auto end = listed.end();
+        for (auto run = listed.begin(); run != end;) {
           auto run_end = run;
           while (run_end != end && *run_end >> 32 == *run >> 32) ++run_end;
           auto up = run, down = run;
@@ -189,8 +193,10 @@ class Matcher {
   /// Rounds of matching all edges that are the best of both their triangles (the matching of the globally
   /// greedy order); a long chain of ever better edges would take as many rounds, so the rest goes one by one.
   void match() {
-    std::vector<uint32_t> open, best(input_.triangles.size(), kNone);
-    for (size_t t = 0; t < input_.triangles.size(); ++t) open.push_back(static_cast<uint32_t>(t));
+    BulkVector<uint32_t> open(mate_.size()), still_open(mate_.size()), best(mate_.size());
+    parallel_for(0, open.size(), kMeshGrain, [&](size_t first, size_t last) {
+      for (size_t t = first; t < last; ++t) open[t] = static_cast<uint32_t>(t);
+    });
     for (int round = 0; round < 12 && !open.empty(); ++round) {
       parallel_for(0, open.size(), kMeshGrain, [&](size_t first, size_t last) {
         for (size_t i = first; i < last; ++i) best[open[i]] = best_half_edge(open[i]);
@@ -201,7 +207,17 @@ class Matcher {
           if (h != kNone && best[partner_[h] / 3] == partner_[h]) mate_[open[i]] = h;
         }
       });
-      std::erase_if(open, [&](uint32_t t) { return best[t] == kNone || mate_[t] != kNone; });
+      const auto is_open = [&](uint32_t t) { return best[t] != kNone && mate_[t] == kNone; };
+      const auto range = [&](size_t first, size_t last) { return std::span(open).subspan(first, last - first); };
+      still_open.resize(parallel_scan(
+          open.size(),
+          [&](size_t first, size_t last) {
+            return static_cast<size_t>(std::ranges::count_if(range(first, last), is_open));
+          },
+          [&](size_t first, size_t last, size_t at) {
+            std::ranges::copy_if(range(first, last), still_open.data() + at, is_open);
+          }));
+      open.swap(still_open);
     }
     for (uint32_t t : open) {
       if (mate_[t] != kNone) continue;
@@ -224,31 +240,51 @@ class Matcher {
   }
 
   Pairing collect() const {
-    Pairing result;
-    result.pairs.reserve(input_.triangles.size() / 2 + 1);
-    for (size_t i = 0; i < input_.triangles.size(); ++i) {
-      const auto t = static_cast<uint32_t>(i);
+    const size_t triangles = input_.triangles.size();
+    const auto is_first = [&](uint32_t t) {
       const uint32_t h = mate_[t];
-      if (h == kNone) {
-        if (has_area(input_, t))
-          result.pairs.push_back({t, TrianglePair::kNoTriangle, edge_end(longest_edge(t))});
-        else
-          ++result.dropped;
-        continue;
-      }
-      const uint32_t p = partner_[h];
-      if (p / 3 < t) continue;
-      // The shared edge closes the first triangle (v2 -> v0) and opens the second (v0 -> v2).
-      result.pairs.push_back({t, p / 3, edge_end(h % 3) | (p % 3) << 2});
-    }
+      return h == kNone || (h != kDropped && partner_[h] / 3 > t);
+    };
+    Pairing result;
+    result.pairs.resize(triangles);
+    result.pairs.resize(parallel_scan(
+        triangles,
+        [&](size_t first, size_t last) {
+          size_t count = 0;
+          for (size_t t = first; t < last; ++t) count += is_first(static_cast<uint32_t>(t));
+          return count;
+        },
+        [&](size_t first, size_t last, size_t at) {
+          for (size_t i = first; i < last; ++i) {
+            const auto t = static_cast<uint32_t>(i);
+            if (!is_first(t)) continue;
+            const uint32_t h = mate_[t];
+            if (h == kNone) {
+              result.pairs[at++] = {t, TrianglePair::kNoTriangle, edge_end(longest_edge(t))};
+              continue;
+            }
+            const uint32_t p = partner_[h];
+            // The shared edge closes the first triangle (v2 -> v0) and opens the second (v0 -> v2).
+            result.pairs[at++] = {t, p / 3, edge_end(h % 3) | (p % 3) << 2};
+          }
+        }));
+    const size_t kept = parallel_reduce<size_t>(
+        0, result.pairs.size(),
+        [&](size_t first, size_t last) {
+          size_t count = 0;
+          for (size_t i = first; i < last; ++i) count += result.pairs[i].second == TrianglePair::kNoTriangle ? 1 : 2;
+          return count;
+        },
+        std::plus());
+    result.dropped = triangles - kept;
     return result;
   }
 
   const BvhInput& input_;
   const float max_area_ratio_;
-  std::vector<uint32_t> partner_;  // of each half edge
-  std::vector<float> gain_;        // of each half edge with a partner [area]
-  std::vector<uint32_t> mate_;     // of each triangle: its half edge to the triangle it is paired with
+  BulkVector<uint32_t> partner_;  // of each half edge
+  BulkVector<float> gain_;        // of each half edge with a partner [area]
+  BulkVector<uint32_t> mate_;     // of each triangle: its half edge to the triangle it is paired with; or kDropped
 };
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "accel/bvh.h"
 
@@ -24,7 +23,7 @@ std::array<glm::vec3, 4> pair_vertices(const BvhInput& input, const TrianglePair
 bool is_parallelogram(const std::array<glm::dvec3, 4>& corners);
 
 struct Pairing {
-  std::vector<TrianglePair> pairs;  // in the order of their first triangles
+  BulkVector<TrianglePair> pairs;  // in the order of their first triangles
   uint64_t dropped = 0;             // triangles of area 0 (in double precision)
 };
 

@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <oneapi/tbb/blocked_range.h>
@@ -33,6 +34,21 @@ void parallel_for_each(size_t count, const std::function<void(size_t)>& body) {
   });
   for (const std::exception_ptr& failure : failures)
     if (failure) std::rethrow_exception(failure);
+}
+
+size_t parallel_scan(size_t items, const std::function<size_t(size_t, size_t)>& count,
+                     const std::function<void(size_t, size_t, size_t)>& write) {
+  std::vector<size_t> places((items + kMeshGrain - 1) / kMeshGrain);
+  const auto for_subranges = [&](const auto& body) {
+    parallel_for_each(places.size(), [&](size_t i) {
+      body(i * kMeshGrain, std::min((i + 1) * kMeshGrain, items), places[i]);
+    });
+  };
+  for_subranges([&](size_t first, size_t last, size_t& place) { place = count(first, last); });
+  size_t all = 0;
+  for (size_t& place : places) all += std::exchange(place, all);
+  for_subranges(write);
+  return all;
 }
 
 void parallel_invoke(const std::function<void()>& a, const std::function<void()>& b) { tbb::parallel_invoke(a, b); }

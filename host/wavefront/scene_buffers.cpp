@@ -16,9 +16,8 @@ using vulkan::BindingKind;
 Binding texel(uint32_t number, VkFormat format) { return {number, BindingKind::kTexel, nullptr, format}; }
 Binding storage(uint32_t number) { return {number, BindingKind::kStorage, nullptr, VK_FORMAT_UNDEFINED}; }
 
-template <class T>
-BufferPlan scene_buffer(const char* name, uint32_t binding, VkFormat format, const std::vector<T>& data) {
-  return {name, {texel(binding, format)}, data.data(), data.size() * sizeof(T)};
+BufferPlan scene_buffer(const char* name, uint32_t binding, VkFormat format, const auto& data) {
+  return {name, {texel(binding, format)}, data.data(), data.size() * sizeof(data[0])};
 }
 
 }  // namespace
@@ -35,22 +34,19 @@ std::vector<BufferPlan> plan_buffers(const PackedScene& s, const gpu::RenderPara
   const uint64_t path_bytes = slots * sizeof(glm::vec4) * (media ? gpu::kPathRowsMedia : gpu::kPathRowsBase);
   const uint64_t queue_bytes = slots * sizeof(uint32_t) * (gpu::kQueueSurface + s.features.classes.size() + (s.media.empty() ? 0 : 1));
   const uint64_t shadow_bytes = lit ? slots * sizeof(glm::vec4) * (media ? gpu::kShadowRowsMedia : gpu::kShadowRows) : 0;
-  static const std::vector<glm::uvec4> no_rows_u;
-  static const std::vector<glm::vec4> no_rows_f;
   static const std::vector<float> no_floats;
-  const auto staged_u = [&](const std::vector<glm::uvec4>& rows) -> const auto& { return baked ? no_rows_u : rows; };
-  const auto staged_f = [&](const std::vector<glm::vec4>& rows) -> const auto& { return baked ? no_rows_f : rows; };
+  const auto staged = [&](const auto& rows) { return baked ? decltype(std::span(rows))() : std::span(rows); };
 
   return {
       {"parameters", {{gpu::kBindParams, BindingKind::kUniform}}, &params, sizeof(params)},
-      scene_buffer("tree nodes", gpu::kBindBvhNodes, kUint4, staged_u(s.bvh.nodes)),
-      scene_buffer("tree leaves", gpu::kBindBvhLeaves, kFloat4, staged_f(s.bvh.leaves)),
-      scene_buffer("leaf records", gpu::kBindLeafInfo, kUint4, staged_u(s.bvh.leaf_info)),
-      scene_buffer("triangles", gpu::kBindTriangles, kUint4, staged_u(s.triangles)),
-      scene_buffer("positions", gpu::kBindPositions, kFloat4, staged_f(s.positions)),
+      scene_buffer("tree nodes", gpu::kBindBvhNodes, kUint4, staged(s.bvh.nodes)),
+      scene_buffer("tree leaves", gpu::kBindBvhLeaves, kFloat4, staged(s.bvh.leaves)),
+      scene_buffer("leaf records", gpu::kBindLeafInfo, kUint4, staged(s.bvh.leaf_info)),
+      scene_buffer("triangles", gpu::kBindTriangles, kUint4, staged(s.triangles)),
+      scene_buffer("positions", gpu::kBindPositions, kFloat4, staged(s.positions)),
       scene_buffer("normals", gpu::kBindNormals, kFloat4, s.normals),
-      scene_buffer("curved shapes", gpu::kBindCurved, kFloat4, staged_f(s.curved)),
-      scene_buffer("shapes", gpu::kBindShapes, kUint4, staged_u(s.shapes)),
+      scene_buffer("curved shapes", gpu::kBindCurved, kFloat4, staged(s.curved)),
+      scene_buffer("shapes", gpu::kBindShapes, kUint4, staged(s.shapes)),
       scene_buffer("baked primitives", gpu::kBindBaked, kFloat4, baked ? baked->rows : plan.walls.rows),
       scene_buffer("mesh attributes", gpu::kBindAttributes, kFloat4, s.attributes),
       scene_buffer("materials", gpu::kBindMaterials, kUint4, s.materials),

@@ -259,7 +259,7 @@ TEST(BvhStructure, ReinsertionLowersTheCost) {
 }
 
 template <class T>
-void expect_same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+void expect_same_bytes(const BulkVector<T>& a, const BulkVector<T>& b) {
   ASSERT_EQ(a.size(), b.size());
   EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(T)), 0);
 }
