@@ -9,6 +9,8 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "base/timer.h"
+#include "shared/counters.h"
+#include "shared/path_state.h"
 #include "wavefront/adaptive_sampling.h"
 #include "wavefront/pass_sums.h"
 #include "wavefront/scene_buffers.h"
@@ -22,8 +24,24 @@ using gpu::WaveParams;
 
 constexpr auto kLeastPilotBlocks = static_cast<uint32_t>(kLeastPilot / gpu::kBlockSamples);
 
-RenderOptions with_pilot(RenderOptions options) {
+// Paths in flight. More gain little: caches of a CPU hold few of them, and a GPU has no more lanes.
+constexpr uint64_t kPathsOfCpu = 1u << 18, kPathsOfGpu = 1u << 22;
+constexpr uint64_t kShareOfMemory = 8;  // all of them take at most an eighth of a GPU's
+
+uint32_t default_paths(const PackedScene& scene, const vulkan::DeviceInfo& device) {
+  if (device.type == VK_PHYSICAL_DEVICE_TYPE_CPU) return kPathsOfCpu;
+  const uint64_t state = gpu::kPathRowsMedia * sizeof(glm::vec4), shadow = gpu::kShadowRowsMedia * sizeof(glm::vec4);
+  const uint64_t queues = (gpu::kQueueSurface + scene.features.classes.size() + 1) * sizeof(uint32_t);
+  const uint64_t fit = std::min({device.device_memory / kShareOfMemory / (state + shadow + queues),
+                                 device.max_storage_buffer_range / std::max(state, queues),
+                                 device.max_texel_buffer_elements * sizeof(uint32_t) / queues,
+                                 device.max_texel_buffer_elements * sizeof(glm::vec4) / state});
+  return static_cast<uint32_t>(std::clamp(fit, kPathsOfCpu, kPathsOfGpu));
+}
+
+RenderOptions with_defaults(RenderOptions options, const PackedScene& scene, const vulkan::DeviceInfo& device) {
   options.adaptive = options.adaptive && pilot_samples(options.samples) < options.samples;
+  if (options.max_paths == 0) options.max_paths = default_paths(scene, device);
   return options;
 }
 
@@ -50,7 +68,7 @@ struct Renderer::Impl {
   uint64_t estimated_samples = 0;  // when progress.relative_error was computed
 
   Impl(vulkan::Device& device, const PackedScene& s, const RenderOptions& o)
-      : scene(s), options(with_pilot(o)), tracer(device, s, options), params(tracer.params()) {
+      : scene(s), options(with_defaults(o, s, device.info())), tracer(device, s, options), params(tracer.params()) {
     statistics.upload_seconds = tracer.upload_seconds();
     statistics.compile_seconds = tracer.compile_seconds();
     statistics.device_bytes = device.allocated_bytes();
@@ -236,7 +254,7 @@ std::vector<std::string> Renderer::stages_skipped() const { return impl_->tracer
 MemoryPlan Renderer::plan_memory(const vulkan::DeviceInfo& device, const PackedScene& scene,
                                  const RenderOptions& options) {
   MemoryPlan plan;
-  const WavePlan waves(scene, options);
+  const WavePlan waves(scene, with_defaults(options, scene, device));
   gpu::RenderParams params = scene.params;
   params.capacity = waves.capacity;
   for (const BufferPlan& p : plan_buffers(scene, params, waves, options.adaptive)) {

@@ -36,7 +36,7 @@ struct RenderOptions {
   uint64_t first_sample = 0;    // multiple of kBlockSamples
   uint32_t seed = 0;
   SamplerKind sampler = SamplerKind::kSobol;
-  uint32_t max_paths = 262144;  // in flight, in stages
+  uint32_t max_paths = 0;       // in flight, in stages; 0: as many as keep the device busy
   KernelStructure structure = KernelStructure::kAuto;
   Guiding guiding = Guiding::kAuto;  // kOn is ignored where may_be_guided() is false
   double time_limit = 0;        // seconds of rendering; 0: none. At least one block is rendered.
