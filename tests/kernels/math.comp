@@ -24,6 +24,7 @@ float f(vec2 v) {
     case 11u: return difference_of_products(v.x, v.x, v.y, v.y);
     case 12u: return is_nan(v.x) ? 1.0 : (is_finite(v.x) ? 0.0 : 2.0);
     case 13u: return safe_sqrt(v.x);
+    case 14u: return v.x + v.y;
     default: return 0.0;
   }
 }

@@ -32,7 +32,8 @@ enum Function : uint32_t {
   kSinTurns,
   kDifferenceOfSquares,
   kClass,
-  kSafeSqrt
+  kSafeSqrt,
+  kSum
 };
 
 struct Point {
@@ -45,6 +46,10 @@ std::vector<float> evaluate(Function function, const std::vector<Point>& points)
 float evaluate(Function function, float x, float y = 0) {
   return evaluate(function, {{x, y}})[0];
 }
+
+/// The least positive number of the device: drivers may take what is below the normal numbers for 0 (Vulkan, "Precision
+/// and Operation of SPIR-V Instructions").
+double least() { return evaluate(kSum, 1e-44f, 1e-44f) == 2e-44f ? 1e-45 : 0x1p-126; }
 
 /// `count` points: half uniform in [lo, hi]; half at a distance from `focus` whose logarithm is uniform, down
 /// to `nearest`, on the sides that [lo, hi] has.
@@ -83,8 +88,8 @@ double largest_error(Function function, const std::vector<Point>& inputs, double
   return largest;
 }
 
-// Bounds: what was measured on lavapipe 22.3.6 and 25.0.7 (in brackets), with some room for a driver that
-// rounds sqrt or / otherwise or contracts to fma.
+// Bounds: what was measured on lavapipe 22.3.6 and 25.0.7 and on NVIDIA 580, which rounds sqrt and / otherwise and contracts
+// to fma, with some room.
 TEST_F(Math, Exp) {
   EXPECT_LT(largest_error(kExp, points(-87.3, 88.7), [](double x, double) { return std::exp(x); }), 1.2e-7);
   EXPECT_EQ(evaluate(kExp, 0), 1);
@@ -108,7 +113,7 @@ TEST_F(Math, Expm1) {
 TEST_F(Math, Log) {
   const auto exact = [](double x, double) { return std::log(x); };
   EXPECT_LT(largest_error(kLog, points(1e-6, 10, 1, 1e-7), exact), 1.2e-7);
-  EXPECT_LT(largest_error(kLog, points(1e-45, 3.4e38, 0, 1e-45), exact), 1.2e-7);
+  EXPECT_LT(largest_error(kLog, points(least(), 3.4e38, 0, least()), exact), 1.2e-7);
   EXPECT_EQ(evaluate(kLog, 1), 0);
   EXPECT_EQ(evaluate(kLog, 0), -kInf);
   EXPECT_EQ(evaluate(kLog, kInf), kInf);
@@ -120,7 +125,7 @@ TEST_F(Math, Log1p) {
   const auto exact = [](double x, double) { return std::log1p(x); };
   EXPECT_LT(largest_error(kLog1p, points(-0.99999994, 10), exact), 2e-7);
   EXPECT_LT(largest_error(kLog1p, points(-0.99999994, 0, -1, 6e-8), exact), 2e-7);
-  EXPECT_LT(largest_error(kLog1p, points(0, 3.4e38, 0, 1e-40), exact), 2e-7);
+  EXPECT_LT(largest_error(kLog1p, points(least(), 3.4e38, 0, std::max(1e-40, least())), exact), 2e-7);
   EXPECT_EQ(evaluate(kLog1p, 0), 0);
   EXPECT_EQ(evaluate(kLog1p, -1), -kInf);
   EXPECT_EQ(evaluate(kLog1p, kInf), kInf);
@@ -141,8 +146,8 @@ TEST_F(Math, Acos) {
 
 TEST_F(Math, Asin) {
   const auto exact = [](double x, double) { return std::asin(x); };
-  EXPECT_LT(largest_error(kAsin, points(-1, 1), exact), 2.6e-7);
-  EXPECT_LT(largest_error(kAsin, points(-1, 1, 1, 6e-8), exact), 2.6e-7);
+  EXPECT_LT(largest_error(kAsin, points(-1, 1), exact), 2.7e-7);
+  EXPECT_LT(largest_error(kAsin, points(-1, 1, 1, 6e-8), exact), 2.7e-7);
   EXPECT_EQ(evaluate(kAsin, 0), 0);
   EXPECT_EQ(evaluate(kAsin, -1.0000002f), static_cast<float>(-kPi / 2));
   EXPECT_TRUE(std::isnan(evaluate(kAsin, kNan)));
@@ -161,7 +166,7 @@ TEST_F(Math, Atan2) {
   EXPECT_EQ(evaluate(kAtan2, 0, -2), static_cast<float>(-kPi / 2));
   EXPECT_EQ(evaluate(kAtan2, -1, 1), static_cast<float>(3 * kPi / 4));
   EXPECT_EQ(evaluate(kAtan2, kInf, kInf), static_cast<float>(kPi / 4));
-  EXPECT_EQ(evaluate(kAtan2, kInf, 3), static_cast<float>(3 / 1.7e38));
+  EXPECT_LE(std::abs(evaluate(kAtan2, kInf, 3)), static_cast<float>(3 / 1.7e38));
   EXPECT_TRUE(std::isnan(evaluate(kAtan2, kNan, 1)));
   EXPECT_TRUE(std::isnan(evaluate(kAtan2, 1, kNan)));
 }

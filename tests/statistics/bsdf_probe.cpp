@@ -94,19 +94,20 @@ std::vector<BsdfAnswer> BsdfProbe::ask(std::span<const BsdfQuery> queries) {
     ClassKernel& k = kernel(material_class);
     for (size_t first = 0; first < indices.size(); first += kCapacity) {
       const size_t count = std::min(kCapacity, indices.size() - first);
-      auto* gpu_queries = static_cast<GpuQuery*>(k.queries.mapped());
-      CHECK(gpu_queries != nullptr);
+      std::vector<GpuQuery> gpu_queries(count);
       for (size_t i = 0; i < count; ++i) {
         const BsdfQuery& q = queries[indices[first + i]];
         const uint32_t row = materials_.row_of_bsdf[static_cast<size_t>(q.bsdf)];
         gpu_queries[i] = {glm::vec4(q.wo, std::bit_cast<float>(row)), glm::vec4(q.wi, 0),
                           glm::vec4(q.u, q.u_lobe, q.texture_u)};
       }
+      k.queries.upload(gpu_queries.data(), count * sizeof(GpuQuery));
       const auto push = static_cast<uint32_t>(count);
       vulkan::Commands commands(device());
       commands.dispatch(k.kernel, (push + kTestGroupSize - 1) / kTestGroupSize, &push, sizeof(push));
       commands.submit_and_wait();
-      const auto* gpu_answers = static_cast<const BsdfAnswer*>(k.answers.mapped());
+      std::vector<BsdfAnswer> gpu_answers(count);
+      k.answers.download(gpu_answers.data(), count * sizeof(BsdfAnswer));
       for (size_t i = 0; i < count; ++i) answers[indices[first + i]] = gpu_answers[i];
     }
   }
