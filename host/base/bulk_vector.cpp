@@ -2,6 +2,8 @@
 
 #include <sys/mman.h>
 
+#include "base/memory.h"
+
 namespace tachylite {
 namespace {
 
@@ -17,7 +19,7 @@ void* allocate_bulk(size_t bytes) {
   if (is_small(bytes)) return ::operator new(bytes);
   void* memory = mmap(nullptr, whole_pages(bytes), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) throw std::bad_alloc();
-  madvise(memory, whole_pages(bytes), MADV_HUGEPAGE);  // may fail
+  prefer_huge_pages(memory, whole_pages(bytes));
   return memory;
 }
 
