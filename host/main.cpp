@@ -40,7 +40,7 @@ void add_scene_options(CLI::App& command, SceneArguments& scene) {
 }
 
 void add_paths_option(CLI::App& command, uint32_t& max_paths) {
-  command.add_option("--max-paths", max_paths, "paths in flight on the device")
+  command.add_option("--max-paths", max_paths, "paths in flight on the device; as many as keep it busy unless given")
       ->type_name("N")
       ->check(CLI::Range(1u, kMostPaths));
 }
