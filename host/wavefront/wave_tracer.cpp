@@ -141,13 +141,14 @@ void WaveTracer::touch(const vulkan::Kernel& kernel) {
   commands_.submit();
 }
 
-// Number of bounces (rays of a path) that can still contribute.
+// Number of bounces (rays of a path) that can still contribute; auxiliary channels take the first one.
 uint64_t WaveTracer::last_bounce() const {
   // Null surfaces do not count: the queues tell when all paths have ended.
   if (features_.shadow_null) return std::numeric_limits<uint32_t>::max();
   const bool lights_can_be_hit = features_.area_lights() || features_.environment();
   if (features_.max_depth == std::numeric_limits<uint32_t>::max()) return features_.max_depth;
-  return lights_can_be_hit ? features_.max_depth : std::max(features_.max_depth, 1u) - 1;
+  const uint32_t bounces = lights_can_be_hit ? features_.max_depth : std::max(features_.max_depth, 1u) - 1;
+  return kernels_.write_aov ? std::max(bounces, 1u) : bounces;
 }
 
 // One lane an entry of a queue.

@@ -49,7 +49,7 @@ std::vector<Square> squares() {
 }
 
 /// Squares of 4 x 4 pixels next to each other at z = -3, seen from z = 0 with a near clip plane at 0.5.
-Scene row_of_squares(const std::string& aovs) {
+Scene row_of_squares(const std::string& aovs, const std::string& light = "constant") {
   const size_t count = squares().size();
   std::string elements = fmt::format(
       R"(<integrator type="aov"><string name="aovs" value="{}"/>
@@ -57,8 +57,8 @@ Scene row_of_squares(const std::string& aovs) {
 <sensor type="orthographic"><float name="near_clip" value="0.5"/><transform name="to_world"><scale x="{}" y="{}"/>
 <lookat origin="0, 0, 0" target="0, 0, -1" up="0, 1, 0"/></transform>
 <film type="hdrfilm"><integer name="width" value="{}"/><integer name="height" value="8"/><rfilter type="box"/></film>
-</sensor><emitter type="constant"/>)",
-      aovs, count, count, 4 * count);
+</sensor><emitter type="{}"/>)",
+      aovs, count, count, 4 * count, light);
   for (size_t i = 0; i < count; ++i)
     elements += fmt::format(R"(<shape type="rectangle"><transform name="to_world"><translate x="{}" y="0" z="-3"/>
 </transform>{}</shape>)",
@@ -113,6 +113,14 @@ TEST_F(Aovs, OnTheDevice) {
   RenderOptions options;
   options.samples = 64;
   expect_closed_forms(render_on_device(row_of_squares(kAll), options).film.to_image(), 0.03);  // stratified
+}
+
+// No ray finds the light, and none is sampled: the first hits still count.
+TEST_F(Aovs, OfScenesWithoutBounces) {
+  RenderOptions options;
+  options.samples = 64;
+  options.structure = KernelStructure::kStages;
+  expect_closed_forms(render_on_device(row_of_squares(kAll, "point"), options).film.to_image(), 0.03);
 }
 
 TEST_F(Aovs, InTheReference) {
