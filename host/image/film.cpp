@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numeric>
+#include <functional>
 
 #include "base/check.h"
 #include "base/error.h"
@@ -139,14 +139,16 @@ glm::dvec3 FilmBuffer::variance_of_mean(size_t index) const {
 double FilmBuffer::relative_error() const {
   if (!has_variance()) return 0;
   const glm::dvec3 luminance(0.212671, 0.715160, 0.072169);
-  std::vector<glm::dvec2> sums(static_cast<size_t>(height_));  // of luminance and its variance, by rows
-  parallel_for_each(sums.size(), [&](size_t y) {
-    for (size_t i = y * static_cast<size_t>(width_), end = i + static_cast<size_t>(width_); i < end; ++i) {
+  const auto sum_over = [&](size_t first, size_t last) {  // luminance and its variance
+    glm::dvec2 sum(0);
+    for (size_t i = first; i < last; ++i) {
       const double deviation = glm::dot(luminance, glm::sqrt(variance_of_mean(i)));
-      sums[y] += glm::dvec2(glm::dot(luminance, mean(i)), deviation * deviation);
+      sum += glm::dvec2(glm::dot(luminance, mean(i)), deviation * deviation);
     }
-  });
-  const glm::dvec2 all = std::accumulate(sums.begin(), sums.end(), glm::dvec2(0)) / static_cast<double>(pixels());
+    return sum;
+  };
+  const glm::dvec2 all =
+      parallel_reduce<glm::dvec2>(0, pixels(), sum_over, std::plus()) / static_cast<double>(pixels());
   return all.x > 0 ? std::sqrt(all.y) / all.x : 0;
 }
 
