@@ -47,9 +47,10 @@ float evaluate(Function function, float x, float y = 0) {
   return evaluate(function, {{x, y}})[0];
 }
 
-/// The least positive number of the device: drivers may take what is below the normal numbers for 0 (Vulkan, "Precision
-/// and Operation of SPIR-V Instructions").
-double least() { return evaluate(kSum, 1e-44f, 1e-44f) == 2e-44f ? 1e-45 : 0x1p-126; }
+/// Drivers may take what is below the normal numbers for 0 (Vulkan, "Precision and Operation of SPIR-V Instructions").
+bool keeps_denormals() { return evaluate(kSum, 1e-44f, 1e-44f) == 2e-44f; }
+/// The least positive number of the device.
+double least() { return keeps_denormals() ? 1e-45 : 0x1p-126; }
 
 /// `count` points: half uniform in [lo, hi]; half at a distance from `focus` whose logarithm is uniform, down
 /// to `nearest`, on the sides that [lo, hi] has.
@@ -146,8 +147,9 @@ TEST_F(Math, Acos) {
 
 TEST_F(Math, Asin) {
   const auto exact = [](double x, double) { return std::asin(x); };
-  EXPECT_LT(largest_error(kAsin, points(-1, 1), exact), 2.7e-7);
-  EXPECT_LT(largest_error(kAsin, points(-1, 1, 1, 6e-8), exact), 2.7e-7);
+  const double bound = device().is_cpu() ? 2.6e-7 : 2.7e-7;  // NVIDIA's square root is less accurate
+  EXPECT_LT(largest_error(kAsin, points(-1, 1), exact), bound);
+  EXPECT_LT(largest_error(kAsin, points(-1, 1, 1, 6e-8), exact), bound);
   EXPECT_EQ(evaluate(kAsin, 0), 0);
   EXPECT_EQ(evaluate(kAsin, -1.0000002f), static_cast<float>(-kPi / 2));
   EXPECT_TRUE(std::isnan(evaluate(kAsin, kNan)));
@@ -166,7 +168,7 @@ TEST_F(Math, Atan2) {
   EXPECT_EQ(evaluate(kAtan2, 0, -2), static_cast<float>(-kPi / 2));
   EXPECT_EQ(evaluate(kAtan2, -1, 1), static_cast<float>(3 * kPi / 4));
   EXPECT_EQ(evaluate(kAtan2, kInf, kInf), static_cast<float>(kPi / 4));
-  EXPECT_LE(std::abs(evaluate(kAtan2, kInf, 3)), static_cast<float>(3 / 1.7e38));
+  EXPECT_EQ(evaluate(kAtan2, kInf, 3), keeps_denormals() ? static_cast<float>(3 / 1.7e38) : 0);
   EXPECT_TRUE(std::isnan(evaluate(kAtan2, kNan, 1)));
   EXPECT_TRUE(std::isnan(evaluate(kAtan2, 1, kNan)));
 }
