@@ -22,12 +22,12 @@ uint choose_emitter(float u) {
 }
 
 // A direction from p on a light with normal n; flux: that by the cosine over that of the sample.
-vec3 sample_photon_direction(vec3 p, vec3 n, vec2 u, float u_choice, out float flux) {
+vec3 sample_photon_direction(vec3 p, vec3 n, vec2 u, uint aim, out float flux) {
   Frame frame = frame_from_normal(n);
   vec3 d = to_world(frame, sample_cosine_hemisphere(u));
   const float share = 0.5 / float(max(focuser_count, 1u));
   for (uint k = 0u; k < focuser_count; ++k)
-    if (sees_focuser(params.focusers[k], p) && u_choice >= share * float(k) && u_choice < share * float(k + 1u))
+    if (aim == k && sees_focuser(params.focusers[k], p))
       d = focus_direction(focus_cone(params.focusers[k], p, frame.s), u);
   float by_cosine = pdf_cosine_hemisphere(dot(n, d)), rest = 1.0, pdf = 0.0;
   for (uint k = 0u; k < focuser_count; ++k) {
@@ -46,11 +46,12 @@ void main() {
   if (!owned) return;
   store_queue(kQueueRays0, slot, slot);
 
-  uvec2 pixel;
-  pixel_of(slot_tile_pixel(slot), pixel);
-  PathSampler path_sampler = begin_path_sampler(film_pixel(pixel), slot_sample(slot), params.seed);
-  vec4 u = camera_sample(path_sampler);
-  vec2 lens = lens_sample(path_sampler);
+  // Whoever aims has one sequence for all photons: the more even they are, the less noise the guide has.
+  uint photon = wave.first_pixel * kBlockSamples + slot, aims = 2u * max(focuser_count, 1u);
+  uint aim = photon % aims;
+  uint key = pixel_key(~aim, params.seed);
+  vec4 u = unit_float4(sample_group(kSamplerSobol, key, photon / aims, kGroupCamera, 20u));
+  vec2 lens = unit_float4(sample_group(kSamplerSobol, key, photon / aims, kGroupLens, 20u)).xy;
   uint light = kLightRows * choose_emitter(lens.x);
   vec4 row0 = load_light(light), row1 = load_light(light + 1u), row2 = load_light(light + 2u);
   vec4 row3 = load_light(light + 3u), row4 = load_light(light + 4u);
@@ -80,7 +81,7 @@ void main() {
     n = normalize(cross(cs.x * row3.xyz - cs.y * row2.xyz, row4.xyz)) * (row3.w != 0.0 ? -1.0 : 1.0);
   }
   float flux;
-  vec3 d = sample_photon_direction(p, n, u.zw, lens.y, flux);
+  vec3 d = sample_photon_direction(p, n, u.zw, aim, flux);
   p += n * (1e-5 * max_component(abs(p)));
   store_path(kPathOrigin, slot, vec4(p, uintBitsToFloat(leaving)));
   store_path(kPathDirection, slot, vec4(d, 0.0));

@@ -29,6 +29,10 @@ uint focuser_table(GuideCell cell, uint focuser) { return cell.first + (focuser 
 uint first_guide_bin(vec3 p, vec3 n) {
   float edge = camera_kind == kCameraOrthographic ? params.guide_scale
                                                   : params.guide_scale * distance(p, params.camera.position.xyz);
+  // Near a focuser its light has a direction of its own at each place.
+  bool near = false;
+  for (uint k = 0u; k < focuser_count; ++k) near = near || !sees_focuser(params.focusers[k], p);
+  if (near) edge *= 0.25;
   uint exponent = floatBitsToUint(max(edge, 1e-30)) >> 23u;
   float per_edge = uintBitsToFloat((254u - exponent) << 23u);  // 1 / 2^floor(log2 edge)
   // Walls often lie at round numbers; borders of cells should not.

@@ -2,7 +2,8 @@
 // the render. Written by shade_surface (photons) and host/wavefront/photon_guide, read by path/guide.glsl.
 //
 // A cell is a hash of a cube of space and of the axis that the normal is nearest to; its edge is a power of two that
-// grows with the distance from the camera. Cells that share a hash share their light, which costs noise, not bias.
+// grows with the distance from the camera, and is a quarter of that where a focuser is too near to have a table. Cells
+// that share a hash share their light, which costs noise, not bias.
 // A cell has one table and one more for each focuser, a sphere around shapes that throw light together. Light that comes
 // from within a focuser counts in its table, by where on the disk of the sphere it is seen: that hardly depends on the
 // place in the cell, as its direction does. The cell's first table has all other light.
