@@ -77,8 +77,7 @@ BulkVector<BinaryNode> bound_primitives(const BvhInput& input, std::span<const T
 
 void write_leaves(const BvhInput& input, std::span<const TrianglePair> pairs,
                   std::span<const uint32_t> leaf_primitives, Bvh8& bvh) {
-  bvh.leaves.resize(leaf_primitives.size() * gpu::kBvhLeafRows);
-  bvh.leaf_info.resize(leaf_primitives.size());
+  bvh.leaves.resize(leaf_primitives.size());
   const auto pair_at = [&](size_t i, size_t last) -> const TrianglePair* {
     return i < last && leaf_primitives[i] < pairs.size() ? &pairs[leaf_primitives[i]] : nullptr;
   };
@@ -91,22 +90,22 @@ void write_leaves(const BvhInput& input, std::span<const TrianglePair> pairs,
       if (const TrianglePair* p = pair_at(i + kAhead, last))
         for (int k = 0; k < 3; ++k) __builtin_prefetch(&input.vertices[input.triangles[p->first][k]]);
 
-      glm::vec4* row = &bvh.leaves[i * gpu::kBvhLeafRows];
+      BvhLeaf& leaf = bvh.leaves[i];
       const uint32_t primitive = leaf_primitives[i];
       if (primitive < pairs.size()) {
         const TrianglePair& pair = pairs[primitive];
         const std::array<glm::vec3, 4> v = pair_vertices(input, pair);
-        for (int a = 0; a < 3; ++a) row[a] = {v[0][a], v[1][a], v[2][a], v[3][a]};
+        for (int a = 0; a < 3; ++a) leaf.rows[a] = {v[0][a], v[1][a], v[2][a], v[3][a]};
         const bool lone = pair.second == TrianglePair::kNoTriangle;
-        bvh.leaf_info[i] = {pair.first, lone ? pair.first : pair.second, gpu::kLeafTriangles,
-                            lone ? pair.rotation * 5 : pair.rotation};
+        leaf.info = {pair.first, lone ? pair.first : pair.second, gpu::kLeafTriangles,
+                     lone ? pair.rotation * 5 : pair.rotation};
       } else {
         const size_t c = primitive - pairs.size();
         const glm::dmat4 inverse = glm::inverse(input.curved[c].object_to_world);
         for (int r = 0; r < 3; ++r)
-          row[r] = glm::vec4(inverse[0][r], inverse[1][r], inverse[2][r], inverse[3][r]);
+          leaf.rows[r] = glm::vec4(inverse[0][r], inverse[1][r], inverse[2][r], inverse[3][r]);
         const auto number = static_cast<uint32_t>(input.triangles.size() + c);
-        bvh.leaf_info[i] = {number, number, input.curved[c].kind, 0};
+        leaf.info = {number, number, input.curved[c].kind, 0};
       }
     }
   });
@@ -179,8 +178,7 @@ Bvh8 build_bvh8(const BvhInput& input, const BvhSettings& settings) {
   stats.depth8 = flat.depth;
   stats.children_per_node = static_cast<double>(flat.children) / static_cast<double>(flat.nodes);
   stats.node_bytes = bvh.nodes.size() * sizeof bvh.nodes[0];
-  stats.leaf_bytes =
-      bvh.leaves.size() * sizeof bvh.leaves[0] + bvh.leaf_info.size() * sizeof bvh.leaf_info[0];
+  stats.leaf_bytes = bvh.leaves.size() * sizeof bvh.leaves[0];
   return bvh;
 }
 

@@ -51,13 +51,19 @@ struct BvhStatistics {
   double pair_seconds = 0, build_seconds = 0, optimise_seconds = 0, flatten_seconds = 0;
 };
 
+/// A leaf in the layout of shared/bvh.h.
+struct BvhLeaf {
+  glm::vec4 rows[3];
+  glm::uvec4 info;
+};
+static_assert(sizeof(BvhLeaf) == gpu::kBvhLeafRows * sizeof(glm::vec4));
+
 /// The flattened structure in the layout of shared/bvh.h. nodes[0..4] is the root (alone in its block of 8).
 /// An empty input gives a root whose slots are all empty. Leaves from first_wall on are in no node.
 struct Bvh8 {
-  BulkVector<glm::uvec4> nodes;      // kBvhNodeRows a node
-  BulkVector<glm::vec4> leaves;      // kBvhLeafRows a leaf
-  BulkVector<glm::uvec4> leaf_info;  // one a leaf
-  uint32_t first_wall = 0;            // leaf; leaf_info.size() where there are none
+  BulkVector<glm::uvec4> nodes;       // kBvhNodeRows a node
+  BulkVector<BvhLeaf> leaves;
+  uint32_t first_wall = 0;            // leaf; leaves.size() where there are none
   glm::vec3 box_min{0}, box_max{0};
   BvhStatistics statistics;
 };

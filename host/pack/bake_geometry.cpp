@@ -61,7 +61,7 @@ bool fits(const PackedScene& scene) {
   const FeatureSet& f = scene.features;
   const bool flat = !f.vertex_normals && !f.vertex_uv && f.textures == 0 && !f.light_textures && f.aovs == 0;
   return flat && f.media == 0 && !f.hide_emitters && leaves_fit(f) && paths_are_short(f) &&
-         scene.bvh.leaf_info.size() <= gpu::kMaxBaked && !scene.bvh.leaf_info.empty();
+         scene.bvh.leaves.size() <= gpu::kMaxBaked && !scene.bvh.leaves.empty();
 }
 
 // Directions written so far: one that differs only by rounding is written with the same bits, so that the compiler
@@ -103,14 +103,13 @@ class Baker {
 
   /// False for what has no place here.
   bool add_leaf(uint32_t leaf) {
-    const glm::uvec4& info = scene_.bvh.leaf_info[leaf];
+    const auto& [r, info] = scene_.bvh.leaves[leaf];
     const uint32_t kind = info.z & gpu::kLeafKindMask;
     if (kind == gpu::kLeafSphere) {
       spheres_.push_back(leaf);
       return true;
     }
     if (kind != gpu::kLeafTriangles) return false;
-    const glm::vec4* r = &scene_.bvh.leaves[size_t{leaf} * gpu::kBvhLeafRows];
     std::array<dvec3, 4> v;
     for (int k = 0; k < 4; ++k) v[static_cast<size_t>(k)] = {r[0][k], r[1][k], r[2][k]};
     const auto add = [&](uint32_t face_kind, const dvec3& v0, const dvec3& v1, const dvec3& v2, uint32_t triangle,
@@ -133,7 +132,7 @@ class Baker {
     std::vector<size_t> in_boxes;
     std::vector<Parallelogram> parallelograms;
     for (size_t i = 0; i < faces_.size(); ++i)
-      if (faces_[i].kind == gpu::kBakedParallelogram && emits(shape(faces_[i].primitive)) == 0) {
+      if (faces_[i].kind == gpu::kBakedParallelogram && emits(shape(faces_[i].hit)) == 0) {
         in_boxes.push_back(i);
         parallelograms.push_back(faces_[i].points);
       }
@@ -162,7 +161,7 @@ class Baker {
   };
 
   bool lights_do_not_care(const glm::uvec4& info) const {
-    const uint32_t light = scene_.shapes[scene_.triangles[info.x].w].y;
+    const uint32_t light = shape_of(info).y;
     if (light == gpu::kNoIndex) return true;
     return (std::bit_cast<uint32_t>(scene_.lights[light].w) & gpu::kLightPairs) != 0;
   }
@@ -207,7 +206,7 @@ class Baker {
     constant(14, half(b, e2, sign_b));
     constant(15, face.hit);
     put_face_rows(face);
-    finish(face.kind | emits(shape(face.primitive)) | (on_hull(face) ? gpu::kBakedHull : 0), 1);
+    finish(face.kind | emits(shape(face.hit)) | (on_hull(face) ? gpu::kBakedHull : 0), 1);
   }
 
   void put_face_rows(const Face& face) {
@@ -216,9 +215,9 @@ class Baker {
     const dvec3 normal = glm::cross(edges[0], edges[1]), centre = v0 + 0.5 * (edges[0] + edges[1]);
     double sign;
     const dvec3 unit(units_.canonical(normal, sign));
-    const bool flip = (shape(face.primitive).z & gpu::kShapeFlipNormals) != 0;
+    const bool flip = (shape(face.hit).z & gpu::kShapeFlipNormals) != 0;
     const dvec3 n = unit * (flip ? -sign : sign);
-    put_rows(glm::vec4(vec3(n), static_cast<float>(-glm::dot(n, centre))), face.primitive, shape(face.primitive),
+    put_rows(glm::vec4(vec3(n), static_cast<float>(-glm::dot(n, centre))), face.primitive, shape(face.hit),
              face.hit);
   }
 
@@ -290,8 +289,11 @@ class Baker {
   }
 
   std::pair<vec3, float> sphere(uint32_t leaf) const {
-    const glm::vec4* rows = &scene_.curved[scene_.bvh.leaf_info[leaf].x];
-    return {vec3(rows[0].w, rows[1].w, rows[2].w), rows[3].z};
+    const glm::vec4* rows = &scene_.curved[scene_.bvh.leaves[leaf].info.x];
+    float radius = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      radius = std::max(radius, glm::length(vec3(rows[0][axis], rows[1][axis], rows[2][axis])));
+    return {vec3(rows[0].w, rows[1].w, rows[2].w), radius};
   }
 
   void put_sphere(uint32_t leaf) {
@@ -299,18 +301,19 @@ class Baker {
     direction(1, dvec3(centre));
     constant(4, double{radius});
     constant(15, 2 * leaf);
-    const glm::uvec4& s = scene_.shapes[std::bit_cast<uint32_t>(scene_.curved[scene_.bvh.leaf_info[leaf].x + 3].x)];
+    const glm::uvec4& s = shape(2 * leaf);
     const bool flip = (s.z & gpu::kShapeFlipNormals) != 0;
     put_rows(glm::vec4(centre, flip ? -radius : radius), gpu::kNoIndex, s, 2 * leaf);
     finish(gpu::kBakedSphere | emits(s), 1);
   }
 
   static uint32_t emits(const glm::uvec4& shape) { return shape.y != gpu::kNoIndex ? gpu::kBakedEmits : 0; }
-  const glm::uvec4& shape(uint32_t triangle) const { return scene_.shapes[scene_.triangles[triangle].w]; }
+  const glm::uvec4& shape_of(const glm::uvec4& info) const { return scene_.shapes[info.w >> gpu::kLeafShapeShift]; }
+  const glm::uvec4& shape(uint32_t hit) const { return shape_of(scene_.bvh.leaves[hit / 2].info); }
 
   void put_rows(const glm::vec4& row, uint32_t primitive, const glm::uvec4& s, uint32_t hit) {
     const uint32_t leaf_class =
-        scene_.bvh.leaf_info[hit / 2].z >> gpu::kLeafClassShift & gpu::kLeafClassMask;
+        scene_.bvh.leaves[hit / 2].info.z >> gpu::kLeafClassShift & gpu::kLeafClassMask;
     const uint32_t material = leaf_class == gpu::kClassNone ? gpu::kNoIndex : s.x;
     out_.rows.push_back(row);
     out_.rows.push_back(glm::vec4(std::bit_cast<float>(material), std::bit_cast<float>(s.y),
@@ -334,7 +337,7 @@ std::optional<BakedGeometry> bake_geometry(const PackedScene& scene) {
   const std::optional<FusedKernel> kernel = fused_kernel(scene.features.union_class());
   if (!kernel) return std::nullopt;
   Baker baker(scene, false);
-  for (uint32_t leaf = 0; leaf < scene.bvh.leaf_info.size(); ++leaf)
+  for (uint32_t leaf = 0; leaf < scene.bvh.leaves.size(); ++leaf)
     if (!baker.add_leaf(leaf)) return std::nullopt;
   std::optional<BakedGeometry> baked = baker.bake();
   if (!baked) return std::nullopt;
@@ -348,7 +351,7 @@ std::optional<BakedGeometry> bake_geometry(const PackedScene& scene) {
 
 BakedGeometry bake_walls(const PackedScene& scene) {
   Baker baker(scene, true);
-  for (uint32_t leaf = scene.bvh.first_wall; leaf < scene.bvh.leaf_info.size(); ++leaf) baker.add_leaf(leaf);
+  for (uint32_t leaf = scene.bvh.first_wall; leaf < scene.bvh.leaves.size(); ++leaf) baker.add_leaf(leaf);
   return *baker.bake();
 }
 

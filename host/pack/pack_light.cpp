@@ -24,9 +24,9 @@ using glm::dmat3;
 /// For each primitive the hit that names it, kNoHit for those that the BVH left out.
 std::vector<uint32_t> hits_of_primitives(const Geometry& geometry, const Bvh8& bvh) {
   std::vector<uint32_t> hits(geometry.triangles.size() + geometry.curved.size(), gpu::kNoHit);
-  for (size_t leaf = 0; leaf < bvh.leaf_info.size(); ++leaf) {
+  for (size_t leaf = 0; leaf < bvh.leaves.size(); ++leaf) {
     const auto hit = static_cast<uint32_t>(2 * leaf);
-    const glm::uvec4& info = bvh.leaf_info[leaf];
+    const glm::uvec4& info = bvh.leaves[leaf].info;
     if (info.y < hits.size()) hits[info.y] = hit + 1;
     if (info.x < hits.size()) hits[info.x] = hit;  // a lone primitive stands in both words
   }

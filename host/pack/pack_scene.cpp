@@ -28,37 +28,26 @@ using glm::dvec3;
 using glm::uvec4;
 using glm::vec4;
 
-// Rows of positions (xyz, u) and, where some kernel reads them, of normals (xyz, v).
-void put_vertices(const Geometry& geometry, PackedScene& out) {
+// What some kernel reads of vertices: their places are in the tree's leaves.
+void put_vertices(Geometry& geometry, PackedScene& out) {
   const size_t count = geometry.vertices.size();
-  const bool uv = out.features.vertex_uv && !geometry.uvs.empty();
-  out.positions.resize(count);
-  const bool normals = out.features.vertex_normals || uv;
-  if (normals) out.normals.resize(count);
+  if (out.features.vertex_uv) out.uvs = std::move(geometry.uvs);
+  if (!out.features.vertex_normals) return;
+  out.normals.resize(count);
   parallel_for(0, count, kMeshGrain, [&](size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i) {
-      out.positions[i] = vec4(geometry.vertices[i], uv ? geometry.uvs[i].x : 0.0f);
-      if (normals)
-        out.normals[i] =
-            vec4(geometry.normals.empty() ? glm::vec3(0) : geometry.normals[i], uv ? geometry.uvs[i].y : 0.0f);
-    }
+    for (size_t i = first; i < last; ++i) out.normals[i] = vec4(geometry.normals[i], 0);
   });
 }
 
 void put_primitives(const Geometry& geometry, PackedScene& out) {
-  out.triangles.resize(geometry.triangles.size());
-  parallel_for(0, geometry.triangles.size(), kMeshGrain, [&](size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i)
-      out.triangles[i] = uvec4(geometry.triangles[i], geometry.shape_of_triangle[i] * gpu::kShapeRows);
-  });
-  for (size_t i = 0; i < geometry.curved.size(); ++i) {
-    const CurvedPrimitive& curved = geometry.curved[i];
-    const glm::dmat4& m = curved.object_to_world;
-    for (int r = 0; r < 3; ++r) out.curved.push_back(vec4(glm::row(m, r)));
-    const double scale = std::max({glm::length(dvec3(m[0])), glm::length(dvec3(m[1])), glm::length(dvec3(m[2]))});
-    out.curved.push_back(vec4(std::bit_cast<float>(geometry.shape_of_curved[i] * gpu::kShapeRows),
-                              std::bit_cast<float>(curved.kind), static_cast<float>(scale), 0));
+  if (out.features.vertex_normals || !out.uvs.empty()) {
+    out.triangles.resize(geometry.triangles.size());
+    parallel_for(0, geometry.triangles.size(), kMeshGrain, [&](size_t first, size_t last) {
+      for (size_t i = first; i < last; ++i) out.triangles[i] = uvec4(geometry.triangles[i], 0);
+    });
   }
+  for (const CurvedPrimitive& curved : geometry.curved)
+    for (int r = 0; r < 3; ++r) out.curved.push_back(vec4(glm::row(curved.object_to_world, r)));
 }
 
 bool is_volumetric(const Integrator& integrator) {
@@ -85,7 +74,7 @@ bool samples_segments(const FeatureSet& features) {
          (features.selection == gpu::kSelectSingle || features.selection == gpu::kSelectLoop);
 }
 
-// leaf_info names class and emission, so that intersect_closest sorts paths with one load.
+// Leaves name class and emission, so that intersect_closest sorts paths with one load, and the shape.
 void mark_leaves(const Scene& scene, const Geometry& geometry, const std::vector<uint32_t>& class_of_shape,
                  const std::vector<bool>& shape_emits, PackedScene& out) {
   const auto mark = [&](uvec4& info) {
@@ -94,14 +83,15 @@ void mark_leaves(const Scene& scene, const Geometry& geometry, const std::vector
                                   : geometry.shape_of_triangle[info.x];
     info.z |= class_of_shape[shape] << gpu::kLeafClassShift;
     if (shape_emits[shape]) info.z |= gpu::kLeafEmits;
+    info.w |= shape * gpu::kShapeRows << gpu::kLeafShapeShift;
     if (scene.shapes[shape].emitter != kNone) info.z |= gpu::kLeafHides;
     // Curved primitives are found by their rows.
     if (curved) info.x = (info.x - static_cast<uint32_t>(geometry.triangles.size())) * gpu::kCurvedRows;
   };
-  parallel_for(0, out.bvh.leaf_info.size(), kMeshGrain, [&](size_t first, size_t last) {
+  parallel_for(0, out.bvh.leaves.size(), kMeshGrain, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
-      mark(out.bvh.leaf_info[i]);
-      if (i >= out.bvh.first_wall) out.bvh.leaf_info[i].z |= gpu::kLeafWall;
+      mark(out.bvh.leaves[i].info);
+      if (i >= out.bvh.first_wall) out.bvh.leaves[i].info.z |= gpu::kLeafWall;
     }
   });
 }
@@ -135,7 +125,7 @@ void set_path_features(const Scene& scene, FeatureSet& features) {
 
 uint64_t PackedScene::host_bytes() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return bytes(bvh.nodes) + bytes(bvh.leaves) + bytes(bvh.leaf_info) + bytes(triangles) + bytes(positions) +
+  return bytes(bvh.nodes) + bytes(bvh.leaves) + bytes(triangles) + bytes(uvs) +
          bytes(normals) + bytes(curved) + bytes(attributes) + bytes(shapes) + bytes(materials) + bytes(textures) +
          bytes(texels8) + bytes(texels16) + bytes(texels32) + bytes(lights) + bytes(emission) + bytes(light_table) + bytes(environment) +
          bytes(environment_cdf) + bytes(media) + bytes(grids);
@@ -175,7 +165,7 @@ PackedScene pack_scene(const Scene& scene, int sensor_index) {
   BvhSettings settings;
   if (features.media == 0 && !scene.integrator.hide_emitters) settings.most_walls = gpu::kMaxWalls;
   out.bvh = build_bvh8(input, settings);
-  features.walls = out.bvh.first_wall < out.bvh.leaf_info.size();
+  features.walls = out.bvh.first_wall < out.bvh.leaves.size();
   out.bvh_seconds = bvh_timer.seconds();
   PackedLights lights = pack_lights(scene, geometry, out.bvh, textures);
   features.lights = lights.kinds;

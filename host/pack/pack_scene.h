@@ -21,7 +21,8 @@ struct PackedScene {
   Bvh8 bvh;
 
   std::vector<glm::uvec4> triangles;   // shared/geometry.h
-  std::vector<glm::vec4> positions, normals, curved, attributes;
+  std::vector<glm::vec4> normals, curved, attributes;
+  std::vector<glm::vec2> uvs;
   std::vector<glm::uvec4> shapes;
   std::vector<glm::uvec4> materials;   // shared/material.h
   std::vector<glm::uvec4> textures;    // shared/texture.h

@@ -6,8 +6,10 @@
 
 layout(set = 0, binding = kBindBvhNodes) uniform usamplerBuffer bvh_nodes;
 layout(set = 0, binding = kBindBvhLeaves) uniform samplerBuffer bvh_leaves;
+layout(set = 0, binding = kBindLeafInfo) uniform usamplerBuffer leaf_info;
 
 uvec4 load_bvh_node(uint row) { return texelFetch(bvh_nodes, int(row)); }
 vec4 load_bvh_leaf(uint row) { return texelFetch(bvh_leaves, int(row)); }
+uvec4 load_leaf_info(uint leaf) { return texelFetch(leaf_info, int(leaf * kBvhLeafRows + 3u)); }
 
 #endif

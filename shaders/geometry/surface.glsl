@@ -6,21 +6,21 @@
 #include "base/frame.glsl"
 #include "base/math.glsl"
 #include "geometry/interaction.glsl"
+#include "geometry/load.glsl"
 #include "shared/bindings.h"
 #include "shared/bvh.h"
 #include "shared/geometry.h"
 
-layout(set = 0, binding = kBindLeafInfo) uniform usamplerBuffer leaf_info;
 layout(set = 0, binding = kBindTriangles) uniform usamplerBuffer triangles;
-layout(set = 0, binding = kBindPositions) uniform samplerBuffer positions;
 layout(set = 0, binding = kBindNormals) uniform samplerBuffer normals;
+layout(set = 0, binding = kBindUvs) uniform samplerBuffer uvs;
 layout(set = 0, binding = kBindCurved) uniform samplerBuffer curved;
 layout(set = 0, binding = kBindShapes) uniform usamplerBuffer shapes;
 
-uvec4 load_leaf_info(uint leaf) { return texelFetch(leaf_info, int(leaf)); }
+uint leaf_shape(uvec4 info) { return info.w >> kLeafShapeShift; }
 uvec4 load_triangle(uint triangle) { return texelFetch(triangles, int(triangle)); }
-vec4 load_position(uint vertex) { return texelFetch(positions, int(vertex)); }
-vec4 load_normal(uint vertex) { return texelFetch(normals, int(vertex)); }
+vec3 load_normal(uint vertex) { return texelFetch(normals, int(vertex)).xyz; }
+vec2 load_uv(uint vertex) { return texelFetch(uvs, int(vertex)).xy; }
 vec4 load_curved(uint row) { return texelFetch(curved, int(row)); }
 uvec4 load_shape(uint row) { return texelFetch(shapes, int(row)); }
 
@@ -39,12 +39,10 @@ void set_shading_frame(inout Interaction it) {
   it.t = frame.t;
 }
 
-// Barycentrics (of vertices 1 and 2) of the mesh's triangle from those of the leaf's, whose vertex k is vertex
-// (k + rotation) mod 3 of the mesh's triangle.
-vec2 triangle_barycentrics(float b1, float b2, uint rotation) {
-  vec3 b = vec3(1.0 - b1 - b2, b1, b2);
-  return rotation == 0u ? b.yz : (rotation == 1u ? b.xy : b.zx);
-}
+// A leaf's vertex k is vertex (k + rotation) mod 3 of the mesh's triangle. Barycentrics of that one's vertices 1 and 2:
+vec2 mesh_barycentrics(vec3 b, uint rotation) { return rotation == 0u ? b.yz : (rotation == 1u ? b.xy : b.zx); }
+// The vertices of the mesh's triangle in the leaf's order:
+uvec3 leaf_order(uvec3 v, uint rotation) { return rotation == 0u ? v : (rotation == 1u ? v.yzx : v.zxy); }
 
 // Unit normal of edges of any length: they are scaled before the product, which could underflow. That of the two
 // shorter edges: a sliver's others are all but parallel.
@@ -58,46 +56,52 @@ vec3 triangle_normal(vec3 e1, vec3 e2, vec3 e12) {
   return normalize(cross(l1 > max(l2, l12) ? e2 : e1, l12 > max(l1, l2) ? e2 : e12));
 }
 
-Interaction triangle_interaction(uint primitive, vec2 b, bool is_wall) {
+// id: of the hit, info: of its leaf, b: barycentrics of vertices 1 and 2 in the leaf's order. Vertices come from the leaf,
+// which lies in one place; those of the mesh are looked up for normals and uv only.
+Interaction triangle_interaction(uint id, uvec4 info, vec2 b) {
   Interaction it;
-  uvec4 triangle = load_triangle(primitive);
-  it.shape = triangle.w;
+  it.shape = leaf_shape(info);
   uvec4 shape = load_shape(it.shape);
   it.material = shape.x;
   it.light = shape.y;
   bool flip = (shape.z & kShapeFlipNormals) != 0u;
 
-  vec4 v0 = load_position(triangle.x), v1 = load_position(triangle.y), v2 = load_position(triangle.z);
+  uint row = (id >> 1u) * kBvhLeafRows;
+  vec4 x = load_bvh_leaf(row), y = load_bvh_leaf(row + 1u), z = load_bvh_leaf(row + 2u);
+  bool second = (id & 1u) != 0u;
+  vec3 v0 = vec3(x.x, y.x, z.x), middle = vec3(x.z, y.z, z.z);
+  vec3 v1 = second ? middle : vec3(x.y, y.y, z.y), v2 = second ? vec3(x.w, y.w, z.w) : middle;
   float b0 = 1.0 - b.x - b.y;
-  it.p = b0 * v0.xyz + b.x * v1.xyz + b.y * v2.xyz;
-  vec3 terms = abs(b0 * v0.xyz) + abs(b.x * v1.xyz) + abs(b.y * v2.xyz);
+  it.p = b0 * v0 + b.x * v1 + b.y * v2;
+  vec3 terms = abs(b0 * v0) + abs(b.x * v1) + abs(b.y * v2);
+  bool is_wall = has_walls && (info.z & kLeafWall) != 0u;
   it.p_error = is_wall ? vec3(kGammaWall * (terms.x + terms.y + terms.z)) : kGammaTriangle * terms;
-  vec3 e1 = v1.xyz - v0.xyz, e2 = v2.xyz - v0.xyz;
-  vec3 n = triangle_normal(e1, e2, v2.xyz - v1.xyz);
+  vec3 e1 = v1 - v0, e2 = v2 - v0;
+  vec3 n = triangle_normal(e1, e2, v2 - v1);
   it.n_g = flip ? -n : n;
   it.n_s = it.n_g;
-  it.point.primitive = primitive;
-  it.point.barycentrics = b;
-  it.point.uv = b;
+  uint rotation = (info.w >> (second ? 2u : 0u)) & 3u;
+  it.point.primitive = second ? info.y : info.x;
+  it.point.barycentrics = mesh_barycentrics(vec3(b0, b), rotation);
+  it.point.uv = it.point.barycentrics;
   it.dp_du = vec3(0.0);
   it.dp_dv = vec3(0.0);
 
-  if (has_vertex_normals || has_vertex_uv) {
-    vec4 n0 = load_normal(triangle.x), n1 = load_normal(triangle.y), n2 = load_normal(triangle.z);
-    if (has_vertex_normals && (shape.z & kShapeHasNormals) != 0u) {
-      vec3 ns = b0 * n0.xyz + b.x * n1.xyz + b.y * n2.xyz;
-      float length2 = dot(ns, ns);
-      if (length2 > 1e-12) it.n_s = (flip ? -ns : ns) * inversesqrt(length2);
-    }
-    if (has_vertex_uv && (shape.z & kShapeHasUv) != 0u) {
-      vec2 uv0 = vec2(v0.w, n0.w), uv1 = vec2(v1.w, n1.w), uv2 = vec2(v2.w, n2.w);
-      it.point.uv = b0 * uv0 + b.x * uv1 + b.y * uv2;
-      vec2 d1 = uv1 - uv0, d2 = uv2 - uv0;
-      float det = d1.x * d2.y - d1.y * d2.x;
-      if (det != 0.0) {
-        it.dp_du = (d2.y * e1 - d1.y * e2) / det;
-        it.dp_dv = (d1.x * e2 - d2.x * e1) / det;
-      }
+  uvec3 v = uvec3(0u);
+  if (has_vertex_normals || has_vertex_uv) v = leaf_order(load_triangle(it.point.primitive).xyz, rotation);
+  if (has_vertex_normals && (shape.z & kShapeHasNormals) != 0u) {
+    vec3 ns = b0 * load_normal(v.x) + b.x * load_normal(v.y) + b.y * load_normal(v.z);
+    float length2 = dot(ns, ns);
+    if (length2 > 1e-12) it.n_s = (flip ? -ns : ns) * inversesqrt(length2);
+  }
+  if (has_vertex_uv && (shape.z & kShapeHasUv) != 0u) {
+    vec2 uv0 = load_uv(v.x), uv1 = load_uv(v.y), uv2 = load_uv(v.z);
+    it.point.uv = b0 * uv0 + b.x * uv1 + b.y * uv2;
+    vec2 d1 = uv1 - uv0, d2 = uv2 - uv0;
+    float det = d1.x * d2.y - d1.y * d2.x;
+    if (det != 0.0) {
+      it.dp_du = (d2.y * e1 - d1.y * e2) / det;
+      it.dp_dv = (d1.x * e2 - d2.x * e1) / det;
     }
   }
   if (has_material(kMaterialTangent) && it.dp_du == vec3(0.0)) {
@@ -109,11 +113,13 @@ Interaction triangle_interaction(uint primitive, vec2 b, bool is_wall) {
   return it;
 }
 
-// o, d: the ray in device space; t: where it hit; world_to_object: the leaf's rows.
-Interaction curved_interaction(uint row, uint kind, vec4 w0, vec4 w1, vec4 w2, vec3 o, vec3 d, float t) {
+// info: of the leaf, whose rows transform from world to object; o, d: the ray in device space; t: where it hit.
+Interaction curved_interaction(uint leaf, uvec4 info, vec3 o, vec3 d, float t) {
   Interaction it;
-  vec4 m0 = load_curved(row), m1 = load_curved(row + 1u), m2 = load_curved(row + 2u), info = load_curved(row + 3u);
-  it.shape = floatBitsToUint(info.x);
+  uint kind = info.z & kLeafKindMask, row = leaf * kBvhLeafRows;
+  vec4 w0 = load_bvh_leaf(row), w1 = load_bvh_leaf(row + 1u), w2 = load_bvh_leaf(row + 2u);
+  vec4 m0 = load_curved(info.x), m1 = load_curved(info.x + 1u), m2 = load_curved(info.x + 2u);
+  it.shape = leaf_shape(info);
   uvec4 shape = load_shape(it.shape);
   it.material = shape.x;
   it.light = shape.y;
@@ -168,17 +174,9 @@ Interaction curved_interaction(uint row, uint kind, vec4 w0, vec4 w1, vec4 w2, v
 // hit = (bits of 2 * leaf + triangle, b1, b2, t) of a ray o + t d that hit something.
 Interaction load_interaction(vec4 hit, vec3 o, vec3 d) {
   uint id = floatBitsToUint(hit.x);
-  uint leaf = id >> 1u;
-  uvec4 info = load_leaf_info(leaf);
-  uint kind = info.z & kLeafKindMask;
-  if (has_curved && kind != kLeafTriangles) {
-    uint row = leaf * kBvhLeafRows;
-    return curved_interaction(info.x, kind, load_bvh_leaf(row), load_bvh_leaf(row + 1u), load_bvh_leaf(row + 2u), o, d, hit.w);
-  }
-  uint second = id & 1u;
-  uint rotation = (info.w >> (2u * second)) & 3u;
-  bool is_wall = has_walls && (info.z & kLeafWall) != 0u;
-  return triangle_interaction(second != 0u ? info.y : info.x, triangle_barycentrics(hit.y, hit.z, rotation), is_wall);
+  uvec4 info = load_leaf_info(id >> 1u);
+  if (has_curved && (info.z & kLeafKindMask) != kLeafTriangles) return curved_interaction(id >> 1u, info, o, d, hit.w);
+  return triangle_interaction(id, info, hit.yz);
 }
 
 // Moves the origin of a ray that leaves `it` in direction w off the surface, to the side of w, by the bound of the

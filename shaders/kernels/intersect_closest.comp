@@ -7,7 +7,6 @@ layout(local_size_x = 64) in;
 #include "base/queues.glsl"
 #include "geometry/bvh.glsl"
 #include "shared/geometry.h"
-layout(set = 0, binding = kBindLeafInfo) uniform usamplerBuffer leaf_info;
 #include "path/listed_rays.glsl"
 #include "path/sort_path.glsl"
 #include "path/volume_path.glsl"
@@ -26,7 +25,7 @@ TraceRay load_ray(uint place) {
   return TraceRay(o.xyz, d.xyz, tmax, floatBitsToUint(o.w), kNoHit);
 }
 
-bool is_emitter(uint hit) { return (texelFetch(leaf_info, int(hit >> 1u)).z & kLeafHides) != 0u; }
+bool is_emitter(uint hit) { return (load_leaf_info(hit >> 1u).z & kLeafHides) != 0u; }
 
 // Whether the ray is a part of the camera's edge; null surfaces on the way do not end that.
 bool is_cameras(uint slot) {

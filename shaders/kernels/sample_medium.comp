@@ -4,7 +4,6 @@
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
 #include "base/queues.glsl"
-layout(set = 0, binding = kBindLeafInfo) uniform usamplerBuffer leaf_info;
 #include "medium/medium.glsl"
 #include "path/path_sampler.glsl"
 #include "path/sort_path.glsl"

@@ -1,8 +1,9 @@
-// The queues that a path goes to when its ray was traced. Needs leaf_info.
+// The queues that a path goes to when its ray was traced.
 #ifndef TACHYLITE_PATH_SORT_PATH_GLSL
 #define TACHYLITE_PATH_SORT_PATH_GLSL
 #include "base/features.glsl"
 #include "base/queues.glsl"
+#include "geometry/load.glsl"
 #include "shared/geometry.h"
 
 // Two at most, as one word: that of a surface or of escaped rays, or none (0), and kToEmitter.
@@ -11,7 +12,7 @@ const uint kNoQueues = 0u, kToEmitter = 0x80000000u;
 // edges: of the path, with this ray.
 uint queues_after(uint hit_id, uint edges) {
   bool found = hit_id != kNoHit;
-  uvec4 info = found ? texelFetch(leaf_info, int(hit_id >> 1u)) : uvec4(0u);
+  uvec4 info = found ? load_leaf_info(hit_id >> 1u) : uvec4(0u);
   uint path_class = (info.z >> kLeafClassShift) & kLeafClassMask;
   bool counts = !(hide_emitters && edges == 1u);
   // Behind a null surface may be light even at the largest depth.

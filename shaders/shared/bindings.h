@@ -9,10 +9,10 @@ TACHYLITE_CONST uint kBindParams = 0u;         // uniform RenderParams
 // Geometry
 TACHYLITE_CONST uint kBindBvhNodes = 1u;       // texel RGBA32UI, shared/bvh.h
 TACHYLITE_CONST uint kBindBvhLeaves = 2u;      // texel RGBA32F, shared/bvh.h
-TACHYLITE_CONST uint kBindLeafInfo = 3u;       // texel RGBA32UI, shared/bvh.h and shared/geometry.h
+TACHYLITE_CONST uint kBindLeafInfo = 3u;       // texel RGBA32UI view of the same, shared/geometry.h
 TACHYLITE_CONST uint kBindTriangles = 4u;      // texel RGBA32UI, shared/geometry.h
-TACHYLITE_CONST uint kBindPositions = 5u;      // texel RGBA32F: xyz, u
-TACHYLITE_CONST uint kBindNormals = 6u;        // texel RGBA32F: normal (zero: flat), v
+TACHYLITE_CONST uint kBindUvs = 5u;            // texel RG32F, of vertices
+TACHYLITE_CONST uint kBindNormals = 6u;        // texel RGBA32F: xyz, of vertices (zero: flat)
 TACHYLITE_CONST uint kBindCurved = 7u;         // texel RGBA32F, shared/geometry.h
 TACHYLITE_CONST uint kBindShapes = 8u;         // texel RGBA32UI, shared/geometry.h
 TACHYLITE_CONST uint kBindAttributes = 9u;     // texel RGBA32F, mesh attributes

@@ -19,13 +19,15 @@
 // descending order of slot ^ 7 ^ (sign bits of its direction).
 // No path from the root has more than kBvhMaxDepth nodes: a stack of kBvhMaxDepth + 1 words never overflows.
 //
-// Leaf: kBvhLeafRows rows of vec4 (48 bytes).
+// Leaf: kBvhLeafRows rows of vec4 (64 bytes, a line of most caches).
 //   Triangle pair: one row an axis, of the vertices v0 v1 v2 v3 (so that a kernel permutes axes by what it loads).
 //   Triangle 0 is (v0, v1, v2), triangle 1 is (v0, v2, v3); a lone triangle has v3 = v2. Vertices are bit-equal to
 //   those of the meshes, so that edges shared between pairs are watertight.
 //   Curved: rows of the world-to-object transform (3 x 4); row r = (m_r0, m_r1, m_r2, translation_r).
-// Leaf info: one uvec4 a leaf: (primitive of triangle 0 or of the curved shape, primitive of triangle 1, kLeaf kind,
-// rotations). A lone triangle or curved shape stands in both primitive words. A hit names 2 * leaf + triangle.
+//   Row 3 is the leaf's info, which kernels read through a view of uvec4: (primitive of triangle 0 or of the curved shape,
+//   primitive of triangle 1, kLeaf kind, rotations). A lone triangle or curved shape stands in both primitive words.
+//   shared/geometry.h has what the renderer adds.
+// A hit names 2 * leaf + triangle.
 // Winding is that of the mesh, but a leaf's triangle may begin at another vertex: its vertex k is vertex (k + r) % 3 of
 // the mesh's triangle, r = bits 0-1 of the rotations for triangle 0, bits 2-3 for triangle 1. So with the leaf's
 // barycentrics (l0, l1, l2) the mesh's (b1, b2) are (l1, l2) for r = 0, (l0, l1) for r = 1, (l2, l0) for r = 2.
@@ -35,7 +37,7 @@
 TACHYLITE_SHARED_BEGIN
 
 TACHYLITE_CONST uint kBvhNodeRows = 5u;
-TACHYLITE_CONST uint kBvhLeafRows = 3u;
+TACHYLITE_CONST uint kBvhLeafRows = 4u;
 TACHYLITE_CONST uint kBvhMaxDepth = 31u;
 TACHYLITE_CONST float kBvhBoxMargin = 1.0f / 4096.0f;
 TACHYLITE_CONST uint kNoHit = 0xffffffffu;

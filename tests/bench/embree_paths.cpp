@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "shared/geometry.h"
+#include "pack/pack_geometry.h"
 
 namespace tachylite::bench {
 namespace {
@@ -40,12 +40,12 @@ float mis_weight(float a, float b) { return a * a / (a * a + b * b); }
 
 EmbreePaths::EmbreePaths(const Scene& scene, const PackedScene& packed)
     : camera_(packed.params.camera), width_(packed.params.width), height_(packed.params.height) {
-  test::TestMesh mesh;
-  for (const glm::vec4& p : packed.positions) mesh.vertices.emplace_back(p);
+  const Geometry geometry = pack_geometry(scene);
+  const test::TestMesh mesh{geometry.vertices, geometry.triangles};
   std::vector<glm::uvec3> emitting;
-  for (const glm::uvec4& t : packed.triangles) {
-    mesh.triangles.emplace_back(t);
-    const Shape& shape = scene.shapes.at(t.w / gpu::kShapeRows);
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const glm::uvec3 t = mesh.triangles[i];
+    const Shape& shape = scene.shapes.at(geometry.shape_of_triangle[i]);
     const auto* diffuse = std::get_if<DiffuseBsdf>(&scene.bsdfs.at(static_cast<size_t>(shape.bsdf)).kind);
     if (!diffuse) throw std::invalid_argument("EmbreePaths: surfaces must be diffuse");
     const vec3 v0 = mesh.vertices[t.x], e1 = mesh.vertices[t.y] - v0, e2 = mesh.vertices[t.z] - v0;

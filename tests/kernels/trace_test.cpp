@@ -63,7 +63,7 @@ class TraceTest : public DeviceTest {
   }
 
   uint32_t primitive(const TraceHit& hit) const {
-    return bvh_.leaf_info.at(hit.id / 2)[static_cast<int>(hit.id & 1)];
+    return bvh_.leaves.at(hit.id / 2).info[static_cast<int>(hit.id & 1)];
   }
 
   /// All four kernels; they must agree bit for bit (closest) and about visibility (any).

@@ -101,7 +101,7 @@ std::vector<LightValue> LightHarness::evaluate(std::span<const LightHit> hits) {
 }
 
 uint32_t LightHarness::primitive_of(uint32_t target) const {
-  const glm::uvec4 info = bvh_.leaf_info.at(target >> 1);
+  const glm::uvec4 info = bvh_.leaves.at(target >> 1).info;
   return (target & 1u) != 0 ? info.y : info.x;
 }
 

@@ -62,7 +62,7 @@ inline uint32_t leaf_of_slot(const DecodedNode& n, uint32_t slot) {
 }
 
 inline std::array<glm::vec3, 4> leaf_vertices(const Bvh8& bvh, uint32_t leaf) {
-  const glm::vec4* r = &bvh.leaves.at(size_t{leaf} * gpu::kBvhLeafRows);
+  const auto& r = bvh.leaves.at(leaf).rows;
   const auto vertex = [&](int k) { return glm::vec3(r[0][k], r[1][k], r[2][k]); };
   return {vertex(0), vertex(1), vertex(2), vertex(3)};
 }
@@ -181,7 +181,7 @@ inline TestHit traverse(const BvhInput& input, const Bvh8& bvh, const Ray& ray, 
       if (!(hit & n.leaf_mask & 1u << s)) continue;
       ++counts.leaves;
       const uint32_t leaf = leaf_of_slot(n, s);
-      const glm::uvec4 info = bvh.leaf_info.at(leaf);
+      const glm::uvec4 info = bvh.leaves.at(leaf).info;
       if (leaf_kind(n, s) != gpu::kLeafTriangles) {
         const double t = intersect_curved(ray, input.curved[info.x - input.triangles.size()]);
         if (t < best.t) best = {t, info.x, 0, 0};

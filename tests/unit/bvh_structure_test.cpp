@@ -34,14 +34,13 @@ class Walker {
 
   void check() {
     ASSERT_EQ(bvh_.nodes.size() % gpu::kBvhNodeRows, 0u);
-    ASSERT_EQ(bvh_.leaves.size(), bvh_.leaf_info.size() * gpu::kBvhLeafRows);
     walk(0, {}, 1);
     EXPECT_EQ(leaves_.size(), bvh_.first_wall);
-    for (uint32_t leaf = bvh_.first_wall; leaf < bvh_.leaf_info.size(); ++leaf)
+    for (uint32_t leaf = bvh_.first_wall; leaf < bvh_.leaves.size(); ++leaf)
       check_leaf(leaf, gpu::kLeafTriangles, {});
     const BvhStatistics& stats = bvh_.statistics;
     EXPECT_EQ(nodes_.size(), stats.nodes8);
-    EXPECT_EQ(leaves_.size(), bvh_.leaf_info.size());
+    EXPECT_EQ(leaves_.size(), bvh_.leaves.size());
     EXPECT_EQ(leaves_.size(), stats.leaves);
     EXPECT_EQ(depth_, stats.depth8);
     EXPECT_LE(depth_, static_cast<int>(gpu::kBvhMaxDepth));
@@ -101,9 +100,9 @@ class Walker {
   }
 
   void check_leaf(uint32_t leaf, uint32_t kind, const Bounds& b) {
-    ASSERT_LT(leaf, bvh_.leaf_info.size());
+    ASSERT_LT(leaf, bvh_.leaves.size());
     EXPECT_TRUE(leaves_.insert({leaf, 1}).second);
-    const glm::uvec4 info = bvh_.leaf_info[leaf];
+    const glm::uvec4 info = bvh_.leaves[leaf].info;
     ++primitives_[info.x];
     EXPECT_EQ(kind, info.z);
     if (kind != gpu::kLeafTriangles) {
@@ -114,7 +113,7 @@ class Walker {
       const glm::dmat4 inverse = glm::inverse(c.object_to_world);
       for (int r = 0; r < 3; ++r)
         for (int k = 0; k < 4; ++k)
-          EXPECT_FLOAT_EQ(bvh_.leaves[size_t{leaf} * gpu::kBvhLeafRows + static_cast<size_t>(r)][k],
+          EXPECT_FLOAT_EQ(bvh_.leaves[leaf].rows[r][k],
                           static_cast<float>(inverse[k][r]));
       return;
     }
@@ -276,7 +275,6 @@ TEST(BvhStructure, SameBytesForAnyNumberOfThreads) {
     const Bvh8 many = build_bvh8(s.input());
     expect_same_bytes(one.nodes, many.nodes);
     expect_same_bytes(one.leaves, many.leaves);
-    expect_same_bytes(one.leaf_info, many.leaf_info);
   }
   set_thread_count(0);
 }

@@ -16,8 +16,8 @@ std::vector<uint32_t> walls_of(const TestScene& scene, uint32_t most) {
   settings.most_walls = most;
   const Bvh8 bvh = build_bvh8(scene.input(), settings);
   std::vector<uint32_t> walls;
-  for (uint32_t leaf = bvh.first_wall; leaf < bvh.leaf_info.size(); ++leaf)
-    walls.push_back(std::min(bvh.leaf_info[leaf].x, bvh.leaf_info[leaf].y));
+  for (uint32_t leaf = bvh.first_wall; leaf < bvh.leaves.size(); ++leaf)
+    walls.push_back(std::min(bvh.leaves[leaf].info.x, bvh.leaves[leaf].info.y));
   std::sort(walls.begin(), walls.end());
   EXPECT_EQ(bvh.statistics.walls, walls.size());
   return walls;
