@@ -42,7 +42,8 @@ void main() {
       atomicAdd(counters[kCounterNonfinite], 1u);
       lit = false;
     }
-    if (lit)
+    // Also where there is no light: only the queue tells, and CPUs would mispredict which lanes to leave out.
+    if (live)
       store_volume_shadow_ray(place, ray.o, floatBitsToUint(hit.x), ray.d, ray.target, ray.contribution, slot,
                               medium_behind(shape, it.n_g, ray.d, path.medium));
   }
