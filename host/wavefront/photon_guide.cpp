@@ -146,7 +146,7 @@ bool may_be_guided(const PackedScene& scene, Guiding guiding) {
 
 uint32_t photon_count(const gpu::RenderParams& params) {
   const uint64_t wanted = uint64_t{8} * params.film_width * params.film_width;
-  return static_cast<uint32_t>(std::bit_floor(std::clamp<uint64_t>(wanted, 1u << 18, 1u << 20)));
+  return static_cast<uint32_t>(std::bit_floor(std::clamp<uint64_t>(wanted, 1u << 18, 1u << gpu::kPhotonBits)));
 }
 
 float guide_scale(const gpu::RenderParams& params) {

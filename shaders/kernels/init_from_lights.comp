@@ -8,7 +8,7 @@ layout(local_size_x = 64) in;
 #include "base/queues.glsl"
 #include "light/light.glsl"
 #include "path/focus_cone.glsl"
-#include "path/path_sampler.glsl"
+#include "shared/sampler.h"
 layout(set = 0, binding = kBindEmission) uniform samplerBuffer emission;
 
 // The first light whose share, summed up to and with it, exceeds u.
@@ -40,19 +40,21 @@ vec3 sample_photon_direction(vec3 p, vec3 n, vec2 u, uint aim, out float flux) {
   return d;
 }
 
+// Whoever aims has one sequence for all photons: the more even they are, the less noise the guide has.
+vec4 photon_sample(uint aim, uint index, uint group) {
+  return unit_float4(sample_group(kSamplerSobol, pixel_key(~aim, params.seed), index, group, kPhotonBits));
+}
+
 void main() {
   uint slot = gl_GlobalInvocationID.x;
   bool owned = slot < wave.pixel_count * wave.block_count * kBlockSamples;
   if (!owned) return;
   store_queue(kQueueRays0, slot, slot);
 
-  // Whoever aims has one sequence for all photons: the more even they are, the less noise the guide has.
   uint photon = wave.first_pixel * kBlockSamples + slot, aims = 2u * max(focuser_count, 1u);
-  uint aim = photon % aims;
-  uint key = pixel_key(~aim, params.seed);
-  vec4 u = unit_float4(sample_group(kSamplerSobol, key, photon / aims, kGroupCamera, 20u));
-  vec2 lens = unit_float4(sample_group(kSamplerSobol, key, photon / aims, kGroupLens, 20u)).xy;
-  uint light = kLightRows * choose_emitter(lens.x);
+  uint aim = photon % aims, index = photon / aims;
+  vec4 u = photon_sample(aim, index, kGroupCamera);
+  uint light = kLightRows * choose_emitter(photon_sample(aim, index, kGroupLens).x);
   vec4 row0 = load_light(light), row1 = load_light(light + 1u), row2 = load_light(light + 2u);
   vec4 row3 = load_light(light + 3u), row4 = load_light(light + 4u);
   uint kind = floatBitsToUint(row0.w) & kLightKindMask;

@@ -32,6 +32,7 @@ TACHYLITE_CONST uint kGuideDensities = 128u;
 TACHYLITE_CONST uint kGuideShares = 96u;
 TACHYLITE_CONST uint kGuideCells = 4096u;
 TACHYLITE_CONST uint kMaxFocusers = 3u;
+TACHYLITE_CONST uint kPhotonBits = 20u;  // 2^kPhotonBits photons at most
 TACHYLITE_CONST float kPhotonUnit = 256.0f;
 
 TACHYLITE_CONST float kCausticUnit = 16.0f;
