@@ -32,42 +32,41 @@ void main() {
     deposit_photon(live && edges > 1u, find_guide_cell(it.p, bsdf.leaf.n), o, d, to_leaf(bsdf.leaf, -d),
                    (beta.x + beta.y + beta.z) * (1.0 / 3.0), direction.w == 0.0 || direction.w > kFocusedPdf);)
 
+  // Both rays before what is stored of either: their arithmetic overlaps in a CPU.
   float selection_key = 0.0;
   bool lit = false;
+  ShadowRay shadow_ray = no_shadow_ray();
   if (samples_lights(is_volumetric() ? 1u : edges)) {
     vec2 u = light_point_sample(path_sampler, edges - 1u);
-    ShadowRay ray = sample_direct_light(it, -d, bsdf, beta.xyz, u, choices.x, selection_key);
-    lit = live && ray.wanted && samples_lights(edges);
-    if (lit && !is_finite(ray.contribution)) {
-      atomicAdd(counters[kCounterNonfinite], 1u);
-      lit = false;
-    }
-    // Also where there is no light: only the queue tells, and CPUs would mispredict which lanes to leave out.
-    if (live)
-      store_volume_shadow_ray(place, ray.o, floatBitsToUint(hit.x), ray.d, ray.target, ray.contribution, slot,
-                              medium_behind(shape, it.n_g, ray.d, path.medium));
+    shadow_ray = sample_direct_light(it, -d, bsdf, beta.xyz, u, choices.x, selection_key);
+    lit = live && shadow_ray.wanted && samples_lights(edges);
   }
-  if (has_shadow_rays() && live) store_queue(kQueueShadow, place, lit ? slot : kNoPath);
-
-  bool alive = false;
+  bool alive = false, passes = false;
+  NextRay ray;
   if (is_volumetric() || goes_on(edges)) {
     vec2 u = direction_sample(path_sampler, edges - 1u).xy;
-    NextRay ray = sample_next_ray(it, -d, bsdf, beta, edges, u, choices.y, choices.z);
-    bool passes = is_volumetric() && ray.is_null;  // the edge goes on
+    ray = sample_next_ray(it, -d, bsdf, beta, edges, u, choices.y, choices.z);
+    passes = is_volumetric() && ray.is_null;  // the edge goes on
     alive = live && ray.alive && (passes || goes_on(edges));
-    if (alive && !is_finite(ray.beta.xyz)) {
-      atomicAdd(counters[kCounterNonfinite], 1u);
-      alive = false;
-    }
-    if (alive) {
-      store_path(kPathOrigin, slot, vec4(ray.o, hit.x));
-      store_path(kPathDirection, slot, vec4(ray.d, passes ? direction.w : ray.pdf));
-      store_path(kPathBeta, slot, ray.beta);
-      store_volume_path(slot, VolumePath(medium_behind(shape, it.n_g, ray.d, path.medium), edges + (passes ? 0u : 1u),
-                                         passes ? path.distance + hit.w : 0.0));
-      if ((light_selection == kSelectLoop || light_selection == kSelectTree) && !passes)
-        store_path(kPathRadiance, slot, vec4(load_path(kPathRadiance, slot).xyz, selection_key));
-    }
+  }
+  bool lost_light = lit && !is_finite(shadow_ray.contribution), lost_path = alive && !is_finite(ray.beta.xyz);
+  if (lost_light || lost_path) atomicAdd(counters[kCounterNonfinite], uint(lost_light) + uint(lost_path));
+  lit = lit && !lost_light;
+  alive = alive && !lost_path;
+
+  // Also where there is no light: only the queue tells, and CPUs would mispredict which lanes to leave out.
+  if (samples_lights(is_volumetric() ? 1u : edges) && live)
+    store_volume_shadow_ray(place, shadow_ray.o, floatBitsToUint(hit.x), shadow_ray.d, shadow_ray.target,
+                            shadow_ray.contribution, slot, medium_behind(shape, it.n_g, shadow_ray.d, path.medium));
+  if (has_shadow_rays() && live) store_queue(kQueueShadow, place, lit ? slot : kNoPath);
+  if (alive) {
+    store_path(kPathOrigin, slot, vec4(ray.o, hit.x));
+    store_path(kPathDirection, slot, vec4(ray.d, passes ? direction.w : ray.pdf));
+    store_path(kPathBeta, slot, ray.beta);
+    store_volume_path(slot, VolumePath(medium_behind(shape, it.n_g, ray.d, path.medium), edges + (passes ? 0u : 1u),
+                                       passes ? path.distance + hit.w : 0.0));
+    if ((light_selection == kSelectLoop || light_selection == kSelectTree) && !passes)
+      store_path(kPathRadiance, slot, vec4(load_path(kPathRadiance, slot).xyz, selection_key));
   }
   if (live) store_queue(1u - wave.ray_queue, place, alive ? slot : kNoPath);
 }
