@@ -33,10 +33,10 @@ void main() {
                    (beta.x + beta.y + beta.z) * (1.0 / 3.0), direction.w == 0.0 || direction.w > kFocusedPdf);)
 
   // Both rays before what is stored of either: their arithmetic overlaps in a CPU.
+  bool may_be_lit = samples_lights(is_volumetric() ? 1u : edges), lit = false;
   float selection_key = 0.0;
-  bool lit = false;
   ShadowRay shadow_ray = no_shadow_ray();
-  if (samples_lights(is_volumetric() ? 1u : edges)) {
+  if (may_be_lit) {
     vec2 u = light_point_sample(path_sampler, edges - 1u);
     shadow_ray = sample_direct_light(it, -d, bsdf, beta.xyz, u, choices.x, selection_key);
     lit = live && shadow_ray.wanted && samples_lights(edges);
@@ -55,7 +55,7 @@ void main() {
   alive = alive && !lost_path;
 
   // Also where there is no light: only the queue tells, and CPUs would mispredict which lanes to leave out.
-  if (samples_lights(is_volumetric() ? 1u : edges) && live)
+  if (may_be_lit && live)
     store_volume_shadow_ray(place, shadow_ray.o, floatBitsToUint(hit.x), shadow_ray.d, shadow_ray.target,
                             shadow_ray.contribution, slot, medium_behind(shape, it.n_g, shadow_ray.d, path.medium));
   if (has_shadow_rays() && live) store_queue(kQueueShadow, place, lit ? slot : kNoPath);
