@@ -12,7 +12,12 @@ PathSampler begin_path_sampler(uint pixel, uint sample_index, uint seed) {
   return PathSampler(pixel_key(pixel, seed), sample_index);
 }
 
+// Whether paths have vertices whose samples are hashed; media count null collisions, too.
+bool has_hashed_vertices() { return media_kinds != 0u || max_depth > kFirstHashedVertex; }
+
 vec4 path_sample(PathSampler s, uint group) {
+  if (sampler_kind == kSamplerSobol && !has_hashed_vertices())
+    return unit_float4(sobol_group(s.key, s.index, group, log2_samples));
   return unit_float4(sample_group(sampler_kind, s.key, s.index, group, log2_samples));
 }
 

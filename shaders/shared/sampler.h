@@ -105,19 +105,24 @@ TACHYLITE_INLINE uvec4 sobol_reversed(uint index, uint bits) {
 /// The key of a pixel, for sample_group; `pixel` is any number of its own.
 TACHYLITE_INLINE uint pixel_key(uint pixel, uint seed) { return hash_pair(pixel, seed); }
 
-/// Four uniform 32-bit numbers (unit_float makes them floats) of a sample of a pixel. `index` counts the samples of
-/// the pixel, index < 2^bits; `bits` <= kMaxSampleBits only shortens a loop (make it a constant): the numbers do not
-/// depend on it. `kind` is a kSampler...; from kFirstHashedVertex on, kSamplerSobol gives the numbers of
-/// kSamplerIndependent, so that a kernel for late vertices alone may ask for that and leave the rest out.
-TACHYLITE_INLINE uvec4 sample_group(uint kind, uint key, uint index, uint group, uint bits) {
-  if (kind == kSamplerIndependent || group >= kFirstVertexGroup + kGroupsPerVertex * kFirstHashedVertex)
-    return hash_pcg4d(uvec4(key, index, group, 0x7ac41u));
+/// Four uniform 32-bit numbers (unit_float makes them floats) of a sample of a pixel, by kSamplerSobol, for groups before
+/// those of kFirstHashedVertex. `index` counts the samples of the pixel, index < 2^bits; `bits` <= kMaxSampleBits only
+/// shortens a loop (make it a constant): the numbers do not depend on it.
+TACHYLITE_INLINE uvec4 sobol_group(uint key, uint index, uint group, uint bits) {
   uint seed = hash_pair(key, group);
   uvec4 x = sobol_reversed(permute_index(index, seed), bits);
   return uvec4(reverse_bits(scramble_reversed(x.x, hash_pcg(seed + 1u))),
                reverse_bits(scramble_reversed(x.y, hash_pcg(seed + 2u))),
                reverse_bits(scramble_reversed(x.z, hash_pcg(seed + 3u))),
                reverse_bits(scramble_reversed(x.w, hash_pcg(seed + 4u))));
+}
+
+/// The same of any group. `kind` is a kSampler...; from kFirstHashedVertex on, kSamplerSobol gives the numbers of
+/// kSamplerIndependent.
+TACHYLITE_INLINE uvec4 sample_group(uint kind, uint key, uint index, uint group, uint bits) {
+  if (kind == kSamplerIndependent || group >= kFirstVertexGroup + kGroupsPerVertex * kFirstHashedVertex)
+    return hash_pcg4d(uvec4(key, index, group, 0x7ac41u));
+  return sobol_group(key, index, group, bits);
 }
 
 TACHYLITE_INLINE vec4 unit_float4(uvec4 bits) {
