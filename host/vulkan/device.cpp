@@ -107,7 +107,8 @@ Device::Device(const DeviceOptions& options)
     VkPhysicalDeviceVulkan13Features features13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
     features13.maintenance4 = VK_TRUE;  // local sizes by specialization constant; every 1.3 device has it
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &features13, {}};
-    features.features.shaderInt64 = available.features.shaderInt64;
+    info_.int64 = info_.int64 && options.int64;
+    features.features.shaderInt64 = info_.int64;
     features.features.shaderFloat64 = available.features.shaderFloat64;
 
     const float priority = 1.0f;

@@ -17,6 +17,7 @@ struct DeviceInfo {
   std::string name, driver, driver_version, api_version;
   VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
   uint32_t subgroup_size = 0;
+  bool int64 = false;  // kernels may have integers of 64 bits
   uint32_t max_workgroup_invocations = 0, max_workgroup_count_x = 0;
   uint64_t max_storage_buffer_range = 0, max_texel_buffer_elements = 0, max_uniform_buffer_range = 0;
   uint32_t max_push_constants = 0;
@@ -33,6 +34,7 @@ struct DeviceOptions {
   std::string selector;  // index or a part of the name; empty: discrete GPU, else integrated, else CPU
   bool validation =
       false;  // Khronos validation layer with synchronization checks; its messages are collected
+  bool int64 = true;  // false: as on a device whose kernels have no integers of 64 bits
   size_t kept_pipelines = 0;  // so many are kept for later kernels that are equal: where one process renders much
 };
 

@@ -133,6 +133,9 @@ DeviceInfo describe_device(VkPhysicalDevice physical, uint32_t index) {
                   VK_API_VERSION_MINOR(properties.apiVersion), VK_API_VERSION_PATCH(properties.apiVersion));
   info.type = properties.deviceType;
   info.subgroup_size = properties11.subgroupSize;
+  VkPhysicalDeviceFeatures features;
+  vkGetPhysicalDeviceFeatures(physical, &features);
+  info.int64 = features.shaderInt64;
   info.max_workgroup_invocations = properties.limits.maxComputeWorkGroupInvocations;
   info.max_workgroup_count_x = properties.limits.maxComputeWorkGroupCount[0];
   info.max_storage_buffer_range = properties.limits.maxStorageBufferRange;

@@ -31,7 +31,15 @@ std::string class_name(const MaterialClass& c) {
 }
 
 std::string surface_kernel_name(const MaterialClass& c) { return "shade_surface<" + class_name(c) + ">"; }
-std::string surface_kernel_file(const MaterialClass& c) { return "shade_surface" + bsdf_kernel_variant(c); }
+
+// Of a kernel that has a variant with wide rows (shaders/base/queues.glsl).
+std::string row_kernel_file(const std::string& kernel, const KernelSource& source) {
+  return kernel + (source.device.info().int64 ? "_wide" : "");
+}
+std::string surface_kernel_file(const MaterialClass& c, const KernelSource& source) {
+  const bool has_variant = source.device.info().int64 || can_be_guided(c);
+  return row_kernel_file("shade_surface", source) + (has_variant ? bsdf_kernel_variant(c) : "");
+}
 
 // With what does not depend on the scene.
 SpecializationConstants of_render(SpecializationConstants constants, const KernelSource& source) {
@@ -104,7 +112,7 @@ PhotonKernels build_photon_kernels(const KernelSource& source) {
   PhotonKernels kernels;
   const FeatureSet& features = source.features;
   KernelBuilder builder(source, kernels.names);
-  builder.add(kernels.init_from_lights, "init_from_lights", "init_from_lights", features.constants());
+  builder.add(kernels.init_from_lights, "init_from_lights", row_kernel_file("init_from_lights", source), features.constants());
   kernels.scatter_photons.resize(features.classes.size());
   for (size_t c = 0; c < features.classes.size(); ++c) {
     const MaterialClass& material_class = features.classes[c];
@@ -112,7 +120,7 @@ PhotonKernels build_photon_kernels(const KernelSource& source) {
     SpecializationConstants constants = features.class_constants(c);
     constants[gpu::kFeatureGuide] = constants[gpu::kFeaturePhotons] = true;
     builder.add(kernels.scatter_photons[c], "scatter_photons<" + class_name(material_class) + ">",
-                surface_kernel_file(material_class), constants);
+                surface_kernel_file(material_class, source), constants);
   }
   builder.build();
   return kernels;
@@ -126,7 +134,7 @@ void build_surface_kernels(const KernelSource& source, bool guided, Kernels& ker
     SpecializationConstants constants = source.features.class_constants(c);
     constants[gpu::kFeatureGuide] = guided;
     builder.add(kernels.shade_surface[c], surface_kernel_name(material_class) + (guided ? " guided" : ""),
-                surface_kernel_file(material_class), constants);
+                surface_kernel_file(material_class, source), constants);
   }
   builder.build();
 }
@@ -136,9 +144,9 @@ Kernels build_stages(const KernelSource& source, const BakedGeometry& walls, boo
   const SpecializationConstants common = features.constants();
   Kernels kernels;
   KernelBuilder builder(source, kernels.run);
-  const auto add_if = [&](bool needed, Kernels::Pointer& kernel, const char* name) {
+  const auto add_if = [&](bool needed, Kernels::Pointer& kernel, const char* name, const std::string& file = {}) {
     if (needed)
-      builder.add(kernel, name, name, common);
+      builder.add(kernel, name, file.empty() ? name : file, common);
     else
       kernels.skipped.push_back(name);
   };
@@ -152,7 +160,7 @@ Kernels build_stages(const KernelSource& source, const BakedGeometry& walls, boo
 
   // Rays may go on at null surfaces whatever the depth.
   const bool bounces = features.max_depth > 1 || features.shadow_null, media = features.has_media();
-  builder.add(kernels.init_from_camera, "init_from_camera", "init_from_camera", common);
+  builder.add(kernels.init_from_camera, "init_from_camera", row_kernel_file("init_from_camera", source), common);
   builder.add(kernels.prepare_dispatch, "prepare_dispatch", "prepare_dispatch", common);
   add_trace(true, kernels.intersect_primary, "intersect_primary");
   add_trace(bounces, kernels.intersect_closest, "intersect_closest");
@@ -165,7 +173,7 @@ Kernels build_stages(const KernelSource& source, const BakedGeometry& walls, boo
     if (!bounces)
       kernels.skipped.push_back(name);
     else if (!may_guide || !can_be_guided(material_class))
-      builder.add(kernels.shade_surface[c], name, surface_kernel_file(material_class), features.class_constants(c));
+      builder.add(kernels.shade_surface[c], name, surface_kernel_file(material_class, source), features.class_constants(c));
   }
   if (features.classes.empty()) kernels.skipped.push_back("shade_surface");
   const bool shadow = features.selection != gpu::kSelectNone && features.strategy != gpu::kStrategyBsdf &&
@@ -177,7 +185,7 @@ Kernels build_stages(const KernelSource& source, const BakedGeometry& walls, boo
   else
     add_trace(shadow, kernels.intersect_shadow, "intersect_shadow");
   add_if(media, kernels.sample_medium, "sample_medium");
-  add_if(media && features.max_depth > 1, kernels.shade_medium, "shade_medium");
+  add_if(media && features.max_depth > 1, kernels.shade_medium, "shade_medium", row_kernel_file("shade_medium", source));
   const bool segments = media && (features.media & gpu::kMediaSegments) && features.max_depth > 1;
   add_if(segments, kernels.shade_segment, "shade_segment");
   builder.add(kernels.write_film, "write_film", "write_film", common);

@@ -4,6 +4,9 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
+#ifdef WIDE_ROWS
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#endif
 #include "base/features.glsl"
 #include "base/math.glsl"
 #include "shared/bindings.h"
@@ -12,27 +15,50 @@
 #include "shared/path_state.h"
 #include "shared/render_params.h"
 
+// Lavapipe stores a vector component by component, lane by lane: kernels that store much have variants with WIDE_ROWS, for
+// devices with integers of 64 bits, whose rows have half as many components.
+#ifdef WIDE_ROWS
+#define ROW u64vec2
+#define ROW_PAIR u64vec4
+u64vec2 pack_row(vec4 v) { return u64vec2(packUint2x32(floatBitsToUint(v.xy)), packUint2x32(floatBitsToUint(v.zw))); }
+u64vec4 pack_rows(vec4 v, vec4 w) { return u64vec4(pack_row(v), pack_row(w)); }
+#else
+#define ROW vec4
+#define ROW_PAIR mat2x4
+vec4 pack_row(vec4 v) { return v; }
+mat2x4 pack_rows(vec4 v, vec4 w) { return mat2x4(v, w); }
+#endif
+
 layout(set = 0, binding = kBindParams) uniform RenderParamsBlock { RenderParams params; };
 layout(set = 0, binding = kBindPathTexels) uniform samplerBuffer path_texels;
-layout(set = 0, binding = kBindPaths) writeonly restrict buffer Paths { vec4 path_rows[]; };
+layout(set = 0, binding = kBindPaths) writeonly buffer Paths { ROW path_rows[]; };
+layout(set = 0, binding = kBindPaths) writeonly buffer PathPairs { ROW_PAIR path_pairs[]; };
 layout(set = 0, binding = kBindQueueTexels) uniform usamplerBuffer queue_texels;
 layout(set = 0, binding = kBindQueues) writeonly restrict buffer Queues { uint queue_entries[]; };
 layout(set = 0, binding = kBindShadowTexels) uniform samplerBuffer shadow_texels;
-layout(set = 0, binding = kBindShadow) writeonly restrict buffer Shadow { vec4 shadow_rows[]; };
+layout(set = 0, binding = kBindShadow) writeonly buffer Shadow { ROW shadow_rows[]; };
+layout(set = 0, binding = kBindShadow) writeonly buffer ShadowPairs { ROW_PAIR shadow_pairs[]; };
 layout(set = 0, binding = kBindCounters) restrict buffer Counters { uint counters[]; };
 layout(set = 0, binding = kBindPixelList) uniform usamplerBuffer pixel_list;
 
 layout(push_constant) uniform Wave { WaveParams wave; };
 
-vec4 load_path(uint row, uint slot) { return texelFetch(path_texels, int(row * params.capacity + slot)); }
-void store_path(uint row, uint slot, vec4 value) { path_rows[row * params.capacity + slot] = value; }
+// Rows 0 and 1 lie side by side.
+uint row_index(uint row, uint i) { return row < 2u ? 2u * i + row : row * params.capacity + i; }
+
+vec4 load_path(uint row, uint slot) { return texelFetch(path_texels, int(row_index(row, slot))); }
+void store_path(uint row, uint slot, vec4 value) { path_rows[row_index(row, slot)] = pack_row(value); }
+// leaving: bits of the hit that the ray leaves; pdf: of d.
+void store_path_ray(uint slot, vec3 o, uint leaving, vec3 d, float pdf) {
+  path_pairs[slot] = pack_rows(vec4(o, uintBitsToFloat(leaving)), vec4(d, pdf));
+}
 
 uint load_queue(uint queue, uint i) { return texelFetch(queue_texels, int(queue * params.capacity + i)).x; }
 uint queue_length(uint queue) { return counters[kCounterQueue + queue]; }
 void store_queue(uint queue, uint i, uint slot) { queue_entries[queue * params.capacity + i] = slot; }
 uint place_of(uint queue, uint i) { return counters[kCounterPlace + queue] + i; }
 
-vec4 load_shadow(uint row, uint i) { return texelFetch(shadow_texels, int(row * params.capacity + i)); }
+vec4 load_shadow(uint row, uint i) { return texelFetch(shadow_texels, int(row_index(row, i))); }
 
 // One atomic a subgroup. Its entries are in order of its lanes, so that neighbouring paths stay neighbours.
 void append_to_queue(uint queue, bool wanted, uint slot) {
@@ -45,9 +71,8 @@ void append_to_queue(uint queue, bool wanted, uint slot) {
 }
 
 void store_shadow_ray(uint place, vec3 o, uint leaving, vec3 d, uint target, vec3 contribution, uint slot) {
-  shadow_rows[place] = vec4(o, uintBitsToFloat(leaving));
-  shadow_rows[params.capacity + place] = vec4(d, uintBitsToFloat(target));
-  shadow_rows[2u * params.capacity + place] = vec4(contribution, uintBitsToFloat(slot));
+  shadow_pairs[place] = pack_rows(vec4(o, uintBitsToFloat(leaving)), vec4(d, uintBitsToFloat(target)));
+  shadow_rows[row_index(2u, place)] = pack_row(vec4(contribution, uintBitsToFloat(slot)));
 }
 
 // Adds to the radiance of a path; what is not finite is dropped and counted. Only one lane at a time owns a path.

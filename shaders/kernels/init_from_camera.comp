@@ -18,8 +18,7 @@ void main() {
 
   PathSampler path_sampler = begin_path_sampler(film_pixel(pixel), slot_sample(slot), params.seed);
   CameraRay ray = sample_camera_ray(pixel, camera_sample(path_sampler).xy, path_sampler);
-  store_path(kPathOrigin, slot, vec4(ray.o, uintBitsToFloat(kNoHit)));
-  store_path(kPathDirection, slot, vec4(ray.d, 0.0));
+  store_path_ray(slot, ray.o, kNoHit, ray.d, 0.0);
   store_path(kPathBeta, slot, vec4(1.0));
   store_path(kPathHit, slot, vec4(0.0, 0.0, 0.0, ray.tmax));
   store_volume_path(slot, VolumePath(camera_medium, 1u, 0.0));

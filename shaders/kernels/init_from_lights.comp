@@ -85,8 +85,7 @@ void main() {
   float flux;
   vec3 d = sample_photon_direction(p, n, u.zw, aim, flux);
   p += n * (1e-5 * max_component(abs(p)));
-  store_path(kPathOrigin, slot, vec4(p, uintBitsToFloat(leaving)));
-  store_path(kPathDirection, slot, vec4(d, 0.0));
+  store_path_ray(slot, p, leaving, d, 0.0);
   store_path(kPathBeta, slot, vec4(row0.xyz * (3.0 * flux / max(row0.x + row0.y + row0.z, 1e-30)), 1.0));
   store_path(kPathRadiance, slot, vec4(0.0));
   store_path(kPathHit, slot, vec4(0.0, 0.0, 0.0, infinity()));

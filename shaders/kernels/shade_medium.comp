@@ -62,8 +62,7 @@ void main() {
   }
   if (live) store_queue(1u - wave.ray_queue, place, alive ? slot : kNoPath);
   if (alive) {
-    store_path(kPathOrigin, slot, vec4(p, uintBitsToFloat(kNoHit)));
-    store_path(kPathDirection, slot, vec4(wi, eval_phase(phase, d, wi)));
+    store_path_ray(slot, p, kNoHit, wi, eval_phase(phase, d, wi));
     store_path(kPathBeta, slot, beta);
     store_volume_path(slot, VolumePath(path.medium, path.edges + 1u, 0.0));
     if (light_selection == kSelectLoop || light_selection == kSelectTree)

@@ -60,8 +60,7 @@ void main() {
                             shadow_ray.contribution, slot, medium_behind(shape, it.n_g, shadow_ray.d, path.medium));
   if (has_shadow_rays() && live) store_queue(kQueueShadow, place, lit ? slot : kNoPath);
   if (alive) {
-    store_path(kPathOrigin, slot, vec4(ray.o, hit.x));
-    store_path(kPathDirection, slot, vec4(ray.d, passes ? direction.w : ray.pdf));
+    store_path_ray(slot, ray.o, floatBitsToUint(hit.x), ray.d, passes ? direction.w : ray.pdf);
     store_path(kPathBeta, slot, ray.beta);
     store_volume_path(slot, VolumePath(medium_behind(shape, it.n_g, ray.d, path.medium), edges + (passes ? 0u : 1u),
                                        passes ? path.distance + hit.w : 0.0));

@@ -28,7 +28,7 @@ void store_volume_path(uint slot, VolumePath path) {
 void store_volume_shadow_ray(uint place, vec3 o, uint leaving, vec3 d, uint target, vec3 contribution, uint slot,
                              uint medium) {
   store_shadow_ray(place, o, leaving, d, target, contribution, slot);
-  if (is_volumetric()) shadow_rows[3u * params.capacity + place].x = uintBitsToFloat(medium);
+  if (is_volumetric()) shadow_rows[row_index(3u, place)] = pack_row(vec4(uintBitsToFloat(medium), 0.0, 0.0, 0.0));
 }
 
 #endif

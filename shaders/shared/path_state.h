@@ -1,6 +1,6 @@
 // The state of a path: rows of vec4, structure of arrays. Row r of path slot s is element r * capacity + s of
-// kBindPaths; kernels read through the texel view and write through the storage buffer. Rows beyond kPathRowsBase
-// exist only in scenes that need them.
+// kBindPaths, but rows 0 and 1 alternate: they are elements 2 s and 2 s + 1, to be written as one. Kernels read through the
+// texel view and write through the storage buffer. Rows beyond kPathRowsBase exist only in scenes that need them.
 //
 // The slot of a path is a function of pixel and sample (shared/render_params.h); contributions are written to the
 // slot. So an image does not depend on the order in which queues are filled.
@@ -19,7 +19,7 @@ TACHYLITE_CONST uint kPathMedium = 5u;      // media or null surfaces only (medi
                                             // edges; distance from the last vertex that is not null to o; unused
 TACHYLITE_CONST uint kPathRowsMedia = 6u;
 
-// A shadow ray: kShadowRows rows of vec4 at its place (element r * capacity + place of kBindShadow), where there is one
+// A shadow ray: kShadowRows rows of vec4 at its place (of kBindShadow, laid out as a path's), where there is one
 // (kQueueShadow).
 //   row 0: o.xyz; bits of the hit that the ray leaves (ignored by the test)
 //   row 1: d.xyz, not normalised: the light is at o + d; bits of the hit on the light (ignored by the test), or
