@@ -88,5 +88,4 @@ void main() {
   store_path_ray(slot, p, leaving, d, 0.0);
   store_path(kPathBeta, slot, vec4(row0.xyz * (3.0 * flux / max(row0.x + row0.y + row0.z, 1e-30)), 1.0));
   store_path(kPathRadiance, slot, vec4(0.0));
-  store_path(kPathHit, slot, vec4(0.0, 0.0, 0.0, infinity()));
 }
