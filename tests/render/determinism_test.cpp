@@ -50,5 +50,35 @@ TEST_F(Determinism, SeedsDiffer) {
   EXPECT_GT(different_pixels(a, b), 16u * 16u / 2);
 }
 
+// Without such integers other kernels store the rows (shaders/base/queues.glsl). The glass is shaded by the kernel for all
+// materials then.
+TEST_F(Determinism, DevicesWithoutIntegersOf64Bits) {
+  vulkan::Device narrow({.validation = true, .int64 = false});
+  ASSERT_FALSE(narrow.info().int64);
+  if (!device().info().int64) GTEST_SKIP() << "this device has none";
+  const std::string lamp = R"(<shape type="rectangle"><transform name="to_world"><scale value="0.2"/>
+<rotate x="1" angle="90"/><translate y="0.9"/></transform>
+<emitter type="area"><rgb name="radiance" value="20, 14, 8"/></emitter></shape>)";
+  const std::string fog = R"(<medium name="interior" type="homogeneous"><rgb name="sigma_t" value="1, 0.8, 0.5"/>
+<rgb name="albedo" value="0.9, 0.8, 0.6"/></medium>)";
+  const auto box_with_ball = [&](const std::string& integrator, const std::string& ball) {
+    return integrator + sensor_element(32, 32, "0, 0, 0.95", "0, 0, 0", 80) +
+           R"(<shape type="cube"><boolean name="flip_normals" value="true"/><bsdf type="diffuse"/></shape>
+<shape type="sphere"><float name="radius" value="0.5"/>)" + ball + "</shape>" + lamp;
+  };
+  const std::string path = R"(<integrator type="path"><integer name="max_depth" value="6"/></integrator>)";
+  const std::string volpath = R"(<integrator type="volpath"><integer name="max_depth" value="6"/></integrator>)";
+  for (const std::string& elements : {box_with_ball(path, R"(<bsdf type="dielectric"/>)"),
+                                      box_with_ball(volpath, R"(<bsdf type="null"/>)" + fog)}) {
+    const Scene scene = scene_from_elements(elements);
+    RenderOptions options = stages(16, 1 << 14);
+    options.guiding = scene.integrator.kind == Integrator::Kind::kPath ? Guiding::kOn : Guiding::kOff;
+    const FilmBuffer film = render_on_device(scene, options).film;
+    EXPECT_GT(image_mean(film).value.y, 0.05);
+    EXPECT_EQ(different_pixels(render_on_device(scene, options, narrow).film, film), 0u);
+  }
+  for (const std::string& message : narrow.validation_messages()) ADD_FAILURE() << message;
+}
+
 }  // namespace
 }  // namespace tachylite::test

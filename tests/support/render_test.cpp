@@ -82,9 +82,9 @@ ImageMean image_mean(const FilmBuffer& film) {
   return mean;
 }
 
-DeviceRender render_on_device(const Scene& scene, const RenderOptions& options) {
+DeviceRender render_on_device(const Scene& scene, const RenderOptions& options, vulkan::Device& on) {
   const PackedScene packed = pack_scene(scene);
-  Renderer renderer(device(), packed, options);
+  Renderer renderer(on, packed, options);
   FilmBuffer film = renderer.render();
   return {std::move(film), renderer.statistics(), renderer.stages_run(), renderer.stages_skipped()};
 }

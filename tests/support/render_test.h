@@ -30,7 +30,7 @@ struct DeviceRender {
   RenderStatistics statistics;
   std::vector<std::string> stages_run, stages_skipped;
 };
-DeviceRender render_on_device(const Scene& scene, const RenderOptions& options);
+DeviceRender render_on_device(const Scene& scene, const RenderOptions& options, vulkan::Device& on = device());
 
 /// Mean of the image's pixels and the standard error of that mean.
 struct ImageMean {
