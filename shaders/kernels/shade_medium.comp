@@ -33,39 +33,42 @@ void main() {
   vec4 choices = choice_sample(path_sampler, wave.bounce);
   uint vertex = path.edges - 1u;
 
+  // As in shade_surface: both rays before what is stored of either, and shadow rays also where there is no light.
   float selection_key = 0.0;
   bool lit = false;
+  LightSample light;
+  vec3 contribution = vec3(0.0);
   if (samples_lights_here()) {
     vec2 u = light_point_sample(path_sampler, vertex);
-    LightSample light = sample_light(p, vec3(0.0), u, choices.x, selection_key);
+    light = sample_light(p, vec3(0.0), u, choices.x, selection_key);
     float pdf = eval_phase(phase, d, light.wi);
     float weight = light.delta || strategy == kStrategyEmitter ? 1.0 : mis_weight(light.pdf, pdf);
-    vec3 contribution = beta.xyz * pdf * light.radiance * (weight / light.pdf);
+    contribution = beta.xyz * pdf * light.radiance * (weight / light.pdf);
     lit = live && light.pdf > 0.0 && contribution != vec3(0.0);
     if (has_medium(kMediaSegments)) lit = lit && !(light.target == kTargetPoint && !is_grid(load_medium(row)));
-    if (lit && !is_finite(contribution)) {
-      atomicAdd(counters[kCounterNonfinite], 1u);
-      lit = false;
-    }
-    if (lit)
-      store_volume_shadow_ray(place, p, kNoHit, light.target == kTargetInfinite ? light.wi : light.to_light,
-                              light.target, contribution, slot, path.medium);
   }
-  if (has_shadow_rays() && live) store_queue(kQueueShadow, place, lit ? slot : kNoPath);
-
   vec3 wi = sample_phase(phase, d, direction_sample(path_sampler, vertex).xy, choices.y);
+  float pdf = eval_phase(phase, d, wi);
   bool alive = live && goes_on(path.edges);
   if (has_roulette() && path.edges >= roulette_depth) {
     float q = survival_probability(beta);
     alive = alive && choices.z < q;
     beta.xyz /= q;
   }
-  if (live) store_queue(1u - wave.ray_queue, place, alive ? slot : kNoPath);
+  bool lost = lit && !is_finite(contribution);
+  if (lost) atomicAdd(counters[kCounterNonfinite], 1u);
+  lit = lit && !lost;
+
+  if (samples_lights_here() && live)
+    store_volume_shadow_ray(place, p, kNoHit, light.target == kTargetInfinite ? light.wi : light.to_light, light.target,
+                            contribution, slot, path.medium);
+  if (has_shadow_rays() && live) store_queue(kQueueShadow, place, lit ? slot : kNoPath);
   if (alive) {
-    store_path_ray(slot, p, kNoHit, wi, eval_phase(phase, d, wi));
+    store_path_ray(slot, p, kNoHit, wi, pdf);
     store_path(kPathBeta, slot, beta);
     store_volume_path(slot, VolumePath(path.medium, path.edges + 1u, 0.0));
     if (light_selection == kSelectLoop || light_selection == kSelectTree)
       store_path(kPathRadiance, slot, vec4(load_path(kPathRadiance, slot).xyz, selection_key));
   }
+  if (live) store_queue(1u - wave.ray_queue, place, alive ? slot : kNoPath);
 }
