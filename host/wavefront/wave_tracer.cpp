@@ -172,7 +172,7 @@ void WaveTracer::begin_paths(const Kernels::Pointer& init, WaveParams& wave) {
   commands_.fill(*counters_, 0, 0, sizeof(uint32_t) * gpu::kCounterClosestTotal);
   dispatch_lanes(init, wave.pixel_count * wave.block_count * kBlockSamples, wave);
   wave.bounce = wave.ray_queue = 0;
-  prepare(gpu::kPrepareTrace, wave);
+  prepare(gpu::kPrepareFirst, wave);
 }
 
 void WaveTracer::record_bounce(WaveParams& wave) {
@@ -193,7 +193,6 @@ void WaveTracer::record_bounce(WaveParams& wave) {
   dispatch_queue(k.shade_medium, gpu::kDispatchQueue + gpu::kQueueSurface + params_.class_count, wave);
   ++wave.bounce;
   wave.ray_queue = 1 - wave.ray_queue;
-  prepare(gpu::kPrepareTrace, wave);
   dispatch_queue(k.intersect_shadow, gpu::kDispatchShadow, wave);
 }
 
@@ -225,7 +224,6 @@ bool WaveTracer::learn_guide(const KernelSource& source) {
         dispatch_queue(scatter(c), gpu::kDispatchQueue + gpu::kQueueSurface + static_cast<uint32_t>(c), wave);
       ++wave.bounce;
       wave.ray_queue = 1 - wave.ray_queue;
-      prepare(gpu::kPrepareTrace, wave);
     }
     commands_.submit_and_wait();
   }

@@ -54,7 +54,11 @@ void store_path_ray(uint slot, vec3 o, uint leaving, vec3 d, float pdf) {
 }
 
 uint load_queue(uint queue, uint i) { return texelFetch(queue_texels, int(queue * params.capacity + i)).x; }
-uint queue_length(uint queue) { return counters[kCounterQueue + queue]; }
+// Word of the length of a queue, at a bounce.
+uint length_word(uint queue, uint bounce) {
+  return kCounterQueue + queue + (queue >= kQueueEmitter && (bounce & 1u) != 0u ? kMaxQueues : 0u);
+}
+uint queue_length(uint queue) { return counters[length_word(queue, wave.bounce)]; }
 void store_queue(uint queue, uint i, uint slot) { queue_entries[queue * params.capacity + i] = slot; }
 uint place_of(uint queue, uint i) { return counters[kCounterPlace + queue] + i; }
 
@@ -65,7 +69,7 @@ void append_to_queue(uint queue, bool wanted, uint slot) {
   uvec4 ballot = subgroupBallot(wanted);
   uint count = subgroupBallotBitCount(ballot);
   uint base = 0u;
-  if (subgroupElect() && count > 0u) base = atomicAdd(counters[kCounterQueue + queue], count);
+  if (subgroupElect() && count > 0u) base = atomicAdd(counters[length_word(queue, wave.bounce)], count);
   uint i = subgroupBroadcastFirst(base) + subgroupBallotExclusiveBitCount(ballot);
   if (wanted) store_queue(queue, i, slot);
 }

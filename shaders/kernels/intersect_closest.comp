@@ -79,8 +79,9 @@ void sort_paths(uint begin, uint mask) {
     if (subgroupElect()) {
       for (uint k = 0u; k < 3u; ++k) {
         uint l = all[k] & 0xffffu, h = all[k] >> 16u;
-        if (l > 0u) low[k] = atomicAdd(counters[kCounterQueue + queue + 2u * k], l);
-        if (h > 0u) high[k] = atomicAdd(counters[kCounterQueue + queue + 2u * k + 1u], h);
+        uint word = length_word(queue, wave.bounce) + 2u * k;
+        if (l > 0u) low[k] = atomicAdd(counters[word], l);
+        if (h > 0u) high[k] = atomicAdd(counters[word + 1u], h);
       }
     }
     low = subgroupBroadcastFirst(low) + (before & 0xffffu);

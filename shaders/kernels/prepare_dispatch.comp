@@ -1,5 +1,6 @@
 // Sizes the indirect dispatches that follow from the lengths of the queues, gives entries of queues that are shaded
-// their places, and empties the queues that are filled next.
+// their places, and empties the queues that are filled at the next bounce. Shading fills a place for each entry, so the
+// tracing that follows it is sized before it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 1) in;
@@ -23,26 +24,27 @@ void prepare_shadow(uint places) {
   counters[kCounterQueue + kQueueShadow] = places;
 }
 
+void prepare_rays(uint queue, uint places) {
+  counters[kCounterQueue + queue] = places;
+  set_groups(kDispatchClosest, places, kRaysPerGroup);
+  if (has_media()) set_groups(kDispatchQueue + queue, places, kWorkgroupSize);
+}
+
 void main() {
-  uint rays = counters[kCounterQueue + wave.ray_queue];
   if (wave.mode == kPrepareShadow) {
-    prepare_shadow(rays);
-  } else if (wave.mode == kPrepareTrace) {
-    // Shading (or the camera) has queued rays for wave.bounce, and shadow rays.
-    if (wave.bounce == 0u) rays = wave.pixel_count * wave.block_count * kBlockSamples;
-    counters[kCounterQueue + wave.ray_queue] = rays;
-    set_groups(kDispatchClosest, rays, kRaysPerGroup);
-    prepare_shadow(rays);
-    if (has_media()) set_groups(kDispatchQueue + wave.ray_queue, rays, kWorkgroupSize);
-    for (uint q = kQueueEmitter; q < queues_end(); ++q) counters[kCounterQueue + q] = 0u;
+    prepare_shadow(counters[kCounterQueue + wave.ray_queue]);
+  } else if (wave.mode == kPrepareFirst) {
+    prepare_rays(wave.ray_queue, wave.pixel_count * wave.block_count * kBlockSamples);
   } else {
-    for (uint q = kQueueEmitter; q < queues_end(); ++q)
-      set_groups(kDispatchQueue + q, counters[kCounterQueue + q], kWorkgroupSize);
     uint places = 0u;
-    for (uint q = kQueueSurface; q < queues_end(); ++q) {
+    for (uint q = kQueueEmitter; q < queues_end(); ++q) {
+      uint entries = counters[length_word(q, wave.bounce)];
+      set_groups(kDispatchQueue + q, entries, kWorkgroupSize);
       counters[kCounterPlace + q] = places;
-      places += counters[kCounterQueue + q];
+      if (q >= kQueueSurface) places += entries;
+      counters[length_word(q, wave.bounce + 1u)] = 0u;
     }
-    counters[kCounterQueue + (1u - wave.ray_queue)] = places;
+    prepare_rays(1u - wave.ray_queue, places);
+    prepare_shadow(places);
   }
 }

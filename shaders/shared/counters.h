@@ -22,16 +22,18 @@ TACHYLITE_CONST uint kMaxQueues = kQueueSurface + kMaxClasses + 1u;
 TACHYLITE_CONST uint kNoPath = 0xffffffffu;
 
 // Words of the counters buffer.
-TACHYLITE_CONST uint kCounterQueue = 0u;                        // length of each queue, or its number of places
-TACHYLITE_CONST uint kCounterPlace = kMaxQueues;                // first place of each queue that is shaded
-TACHYLITE_CONST uint kCounterClosestTotal = 2u * kMaxQueues;    // rays traced since the host last reset them
-TACHYLITE_CONST uint kCounterShadowTotal = 2u * kMaxQueues + 1u;
-TACHYLITE_CONST uint kCounterNonfinite = 2u * kMaxQueues + 2u;  // contributions dropped: NaN or infinite
-TACHYLITE_CONST uint kCounterOverflow = 2u * kMaxQueues + 3u;   // stacks or queues that were full
-TACHYLITE_CONST uint kCounterUnfinished = 2u * kMaxQueues + 4u; // lanes whose loops the driver has ended too early
-TACHYLITE_CONST uint kCounterCaustics = 2u * kMaxQueues + 5u;   // flux of photons on guided surfaces straight from a
+TACHYLITE_CONST uint kCounterQueue = 0u;                        // length of each queue, or its number of places; from
+                                                               // kQueueEmitter on of even bounces, the next kMaxQueues
+                                                               // words of odd ones
+TACHYLITE_CONST uint kCounterPlace = 2u * kMaxQueues;           // first place of each queue that is shaded
+TACHYLITE_CONST uint kCounterClosestTotal = 3u * kMaxQueues;    // rays traced since the host last reset them
+TACHYLITE_CONST uint kCounterShadowTotal = 3u * kMaxQueues + 1u;
+TACHYLITE_CONST uint kCounterNonfinite = 3u * kMaxQueues + 2u;  // contributions dropped: NaN or infinite
+TACHYLITE_CONST uint kCounterOverflow = 3u * kMaxQueues + 3u;   // stacks or queues that were full
+TACHYLITE_CONST uint kCounterUnfinished = 3u * kMaxQueues + 4u; // lanes whose loops the driver has ended too early
+TACHYLITE_CONST uint kCounterCaustics = 3u * kMaxQueues + 5u;   // flux of photons on guided surfaces straight from a
                                                                // focused lobe, in units of 1 / kCausticUnit (shared/guide.h)
-TACHYLITE_CONST uint kCounterArguments = 2u * kMaxQueues + 6u;       // (x, y, z) of each dispatch below, 4 words apart
+TACHYLITE_CONST uint kCounterArguments = 3u * kMaxQueues + 6u;       // (x, y, z) of each dispatch below, 4 words apart
 
 // Indirect dispatches.
 TACHYLITE_CONST uint kDispatchClosest = 0u;
@@ -42,8 +44,8 @@ TACHYLITE_CONST uint kCounterWords = kCounterArguments + 4u * (kDispatchQueue + 
 TACHYLITE_CONST uint kWorkgroupSize = 64u;
 
 // Modes of prepare_dispatch.
-TACHYLITE_CONST uint kPrepareTrace = 0u;   // after rays were queued: sizes intersect_closest and intersect_shadow
-TACHYLITE_CONST uint kPrepareShade = 1u;   // after intersect_closest: sizes the shading stages
+TACHYLITE_CONST uint kPrepareFirst = 0u;   // after the first rays were queued: sizes intersect_primary
+TACHYLITE_CONST uint kPrepareShade = 1u;   // after sorting: sizes the shading stages and the tracing of what they will queue
 TACHYLITE_CONST uint kPrepareShadow = 2u;  // after shade_segment: sizes intersect_shadow alone
 
 TACHYLITE_SHARED_END

@@ -19,7 +19,7 @@ static_assert(gpu::kQueueSurface > gpu::kQueueEscaped && gpu::kQueueEscaped > gp
               gpu::kQueueEmitter > gpu::kQueueShadow && gpu::kQueueShadow > gpu::kQueueRays1 &&
               gpu::kQueueRays1 > gpu::kQueueRays0);
 static_assert(gpu::kQueueSurface + gpu::kMaxClasses < gpu::kMaxQueues);
-static_assert(gpu::kCounterPlace >= gpu::kCounterQueue + gpu::kMaxQueues);
+static_assert(gpu::kCounterPlace >= gpu::kCounterQueue + 2 * gpu::kMaxQueues);
 static_assert(gpu::kCounterPlace + gpu::kMaxQueues <= gpu::kCounterClosestTotal && gpu::kCounterClosestTotal < gpu::kCounterShadowTotal &&
               gpu::kCounterShadowTotal < gpu::kCounterNonfinite && gpu::kCounterNonfinite < gpu::kCounterOverflow &&
               gpu::kCounterOverflow < gpu::kCounterUnfinished &&
