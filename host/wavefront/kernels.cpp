@@ -112,7 +112,8 @@ PhotonKernels build_photon_kernels(const KernelSource& source) {
   PhotonKernels kernels;
   const FeatureSet& features = source.features;
   KernelBuilder builder(source, kernels.names);
-  builder.add(kernels.init_from_lights, "init_from_lights", row_kernel_file("init_from_lights", source), features.constants());
+  builder.add(kernels.init_from_lights, "init_from_lights", row_kernel_file("init_from_lights", source),
+              features.constants());
   kernels.scatter_photons.resize(features.classes.size());
   for (size_t c = 0; c < features.classes.size(); ++c) {
     const MaterialClass& material_class = features.classes[c];
@@ -173,7 +174,8 @@ Kernels build_stages(const KernelSource& source, const BakedGeometry& walls, boo
     if (!bounces)
       kernels.skipped.push_back(name);
     else if (!may_guide || !can_be_guided(material_class))
-      builder.add(kernels.shade_surface[c], name, surface_kernel_file(material_class, source), features.class_constants(c));
+      builder.add(kernels.shade_surface[c], name, surface_kernel_file(material_class, source),
+                  features.class_constants(c));
   }
   if (features.classes.empty()) kernels.skipped.push_back("shade_surface");
   const bool shadow = features.selection != gpu::kSelectNone && features.strategy != gpu::kStrategyBsdf &&
@@ -185,7 +187,8 @@ Kernels build_stages(const KernelSource& source, const BakedGeometry& walls, boo
   else
     add_trace(shadow, kernels.intersect_shadow, "intersect_shadow");
   add_if(media, kernels.sample_medium, "sample_medium");
-  add_if(media && features.max_depth > 1, kernels.shade_medium, "shade_medium", row_kernel_file("shade_medium", source));
+  add_if(media && features.max_depth > 1, kernels.shade_medium, "shade_medium",
+         row_kernel_file("shade_medium", source));
   const bool segments = media && (features.media & gpu::kMediaSegments) && features.max_depth > 1;
   add_if(segments, kernels.shade_segment, "shade_segment");
   builder.add(kernels.write_film, "write_film", "write_film", common);

@@ -15,8 +15,8 @@
 #include "shared/path_state.h"
 #include "shared/render_params.h"
 
-// Lavapipe stores a vector component by component, lane by lane: kernels that store much have variants with WIDE_ROWS, for
-// devices with integers of 64 bits, whose rows have half as many components.
+// Lavapipe stores a vector component by component, lane by lane: kernels that store much have variants with WIDE_ROWS,
+// for devices with integers of 64 bits, whose rows have half as many components.
 #ifdef WIDE_ROWS
 #define ROW u64vec2
 #define ROW_PAIR u64vec4

@@ -45,7 +45,7 @@ TACHYLITE_CONST uint kWorkgroupSize = 64u;
 
 // Modes of prepare_dispatch.
 TACHYLITE_CONST uint kPrepareFirst = 0u;   // after the first rays were queued: sizes intersect_primary
-TACHYLITE_CONST uint kPrepareShade = 1u;   // after sorting: sizes the shading stages and the tracing of what they will queue
+TACHYLITE_CONST uint kPrepareShade = 1u;   // after sorting: sizes the shading stages and the tracing that follows
 TACHYLITE_CONST uint kPrepareShadow = 2u;  // after shade_segment: sizes intersect_shadow alone
 
 TACHYLITE_SHARED_END

@@ -105,9 +105,9 @@ TACHYLITE_INLINE uvec4 sobol_reversed(uint index, uint bits) {
 /// The key of a pixel, for sample_group; `pixel` is any number of its own.
 TACHYLITE_INLINE uint pixel_key(uint pixel, uint seed) { return hash_pair(pixel, seed); }
 
-/// Four uniform 32-bit numbers (unit_float makes them floats) of a sample of a pixel, by kSamplerSobol, for groups before
-/// those of kFirstHashedVertex. `index` counts the samples of the pixel, index < 2^bits; `bits` <= kMaxSampleBits only
-/// shortens a loop (make it a constant): the numbers do not depend on it.
+/// Four uniform 32-bit numbers (unit_float makes them floats) of a sample of a pixel, by kSamplerSobol, for groups
+/// before those of kFirstHashedVertex. `index` counts the samples of the pixel, index < 2^bits; `bits` <= kMaxSampleBits
+/// only shortens a loop (make it a constant): the numbers do not depend on it.
 TACHYLITE_INLINE uvec4 sobol_group(uint key, uint index, uint group, uint bits) {
   uint seed = hash_pair(key, group);
   uvec4 x = sobol_reversed(permute_index(index, seed), bits);

@@ -50,8 +50,8 @@ TEST_F(Determinism, SeedsDiffer) {
   EXPECT_GT(different_pixels(a, b), 16u * 16u / 2);
 }
 
-// Without such integers other kernels store the rows (shaders/base/queues.glsl). The glass is shaded by the kernel for all
-// materials then.
+// Without such integers other kernels store the rows (shaders/base/queues.glsl). The glass is then shaded by the kernel
+// for all materials.
 TEST_F(Determinism, DevicesWithoutIntegersOf64Bits) {
   vulkan::Device narrow({.validation = true, .int64 = false});
   ASSERT_FALSE(narrow.info().int64);
