@@ -31,6 +31,7 @@ mat2x4 pack_rows(vec4 v, vec4 w) { return mat2x4(v, w); }
 
 layout(set = 0, binding = kBindParams) uniform RenderParamsBlock { RenderParams params; };
 layout(set = 0, binding = kBindPathTexels) uniform samplerBuffer path_texels;
+// Rows and pairs of rows are two views of the same memory, and so not restrict.
 layout(set = 0, binding = kBindPaths) writeonly buffer Paths { ROW path_rows[]; };
 layout(set = 0, binding = kBindPaths) writeonly buffer PathPairs { ROW_PAIR path_pairs[]; };
 layout(set = 0, binding = kBindQueueTexels) uniform usamplerBuffer queue_texels;
