@@ -152,6 +152,7 @@ class Builder {
 
   /// Of 2 to kExactRange primitives; they need no centres. Puts the left side first and returns where the right begins.
   size_t divide_exactly(size_t begin, size_t n) {
+    if (n == 2) return begin + 1;
     std::array<Box, 1 << kExactRange> boxes;  // of each set of primitives
     std::array<uint32_t, 1 << kExactRange> sizes;
     sizes[0] = 0;

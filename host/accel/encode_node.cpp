@@ -21,19 +21,20 @@ QuantisationGrid::QuantisationGrid(float lo, float hi) : exponent(1) {
 
 void QuantisationGrid::set_step(float lo) {
   step = std::bit_cast<float>(exponent << 23);
+  inverse_step = 1.0 / step;
   const double lowered = static_cast<double>(lo) - margin();
   p = static_cast<float>(lowered);
   if (p > lowered) p = std::nextafter(p, -std::numeric_limits<float>::infinity());
 }
 
 uint32_t QuantisationGrid::lower(float x) const {
-  auto q = static_cast<uint32_t>(std::min(255.0, (static_cast<double>(x) - p) / step));
+  auto q = static_cast<uint32_t>(std::min(255.0, (static_cast<double>(x) - p) * inverse_step));
   while (q > 0 && !at_most(q, x)) --q;
   return q;
 }
 
 uint32_t QuantisationGrid::upper(float x) const {
-  auto q = static_cast<uint32_t>(std::min(255.0, (static_cast<double>(x) - p) / step));
+  auto q = static_cast<uint32_t>(std::min(255.0, (static_cast<double>(x) - p) * inverse_step));
   while (!at_least(q, x)) ++q;
   return q;
 }

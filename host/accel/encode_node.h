@@ -16,6 +16,7 @@ struct QuantisationGrid {
   float p;
   uint32_t exponent;  // biased, 1..254: the least whose grid covers the interval
   float step;
+  double inverse_step;
 
   QuantisationGrid(float lo, float hi);
   float decode(uint32_t q) const { return p + static_cast<float>(q) * step; }

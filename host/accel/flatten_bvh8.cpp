@@ -160,7 +160,11 @@ class Flattener {
   void encode(Part& part) {
     std::copy(part.leaf_primitives.begin(), part.leaf_primitives.end(),
               flat_.leaf_primitives.begin() + part.first_leaf);
-    for (WideNode& wide : part.nodes) {
+    constexpr size_t kAhead = 3;
+    for (size_t i = 0; i < part.nodes.size(); ++i) {
+      if (i + kAhead < part.nodes.size())
+        for (const uint32_t slot : part.nodes[i + kAhead].slots) __builtin_prefetch(&nodes_[slot]);
+      WideNode& wide = part.nodes[i];
       wide.child_base += part.first_block;
       wide.leaf_base += part.first_leaf;
       if (wide.binary != part.root) wide.address += part.first_block * kBvhWidth;

@@ -77,8 +77,10 @@ class Reinserter {
     const auto better = [](const Candidate& a, const Candidate& b) {
       return a.area > b.area || (a.area == b.area && a.node < b.node);
     };
-    ranked_.assign(candidates.begin(), candidates.end());
-    const auto first_left_out = ranked_.begin() + static_cast<ptrdiff_t>(count);
+    const size_t stride = std::max<size_t>(1, count / 4096);
+    ranked_.clear();
+    for (size_t i = 0; i < candidates.size(); i += stride) ranked_.push_back(candidates[i]);
+    const auto first_left_out = ranked_.begin() + static_cast<ptrdiff_t>(count / stride);
     std::nth_element(ranked_.begin(), first_left_out, ranked_.end(), better);
     std::erase_if(candidates, [&](const Candidate& c) { return !better(c, *first_left_out); });
   }
@@ -218,9 +220,9 @@ class Reinserter {
 }  // namespace
 
 double optimise_binary_bvh(BinaryBvh& bvh, int max_passes) {
-  constexpr double kFraction = 0.005;  // of the nodes, in each pass: many small passes reach more than few large ones
+  constexpr double kFraction = 0.0025;  // of the nodes, in each pass: many small passes reach more than few large ones
   constexpr double kMovable = 0.05;    // of the nodes are parents of those that are moved
-  constexpr size_t kLeast = 2000;      // of either
+  constexpr size_t kLeast = 1500;      // of either
   constexpr double kWorthwhile = 1e-4;  // of the total area, in a pass
   if (bvh.nodes.size() < 8) return 0;
   const double area = expected_visits(bvh).inner * half_area(bvh.nodes[BinaryBvh::kRoot].box());
