@@ -71,13 +71,15 @@ class Reinserter {
     uint32_t node;
   };
 
-  /// They stay in order, so that what looks at their nodes goes through memory in that of the tree.
+  /// About `count`: the bound is that of a sample. They stay in order, so that what looks at their nodes goes through
+  /// memory in that of the tree.
   void keep_best(BulkVector<Candidate>& candidates, size_t count) {
     if (count >= candidates.size()) return;
     const auto better = [](const Candidate& a, const Candidate& b) {
       return a.area > b.area || (a.area == b.area && a.node < b.node);
     };
-    const size_t stride = std::max<size_t>(1, count / 4096);
+    constexpr size_t kSampled = 4096;  // of `count`
+    const size_t stride = std::max<size_t>(1, count / kSampled);
     ranked_.clear();
     for (size_t i = 0; i < candidates.size(); i += stride) ranked_.push_back(candidates[i]);
     const auto first_left_out = ranked_.begin() + static_cast<ptrdiff_t>(count / stride);

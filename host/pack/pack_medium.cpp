@@ -60,6 +60,8 @@ class MediumPacker {
     rows[3] = row(high);
     put_majorants(grid, glm::vec3(low), glm::vec3(high), rows[1]);
     put_volume(grid.sigma_t, rows + gpu::kMediumSigmaRow);
+    if (grid.sigma_t.grid && grid.sigma_t.grid->channels >= 3) kinds |= gpu::kMediaColouredSigma;
+    if (grid.albedo.grid) kinds |= gpu::kMediaAlbedoGrids;
     put_volume(grid.albedo, rows + gpu::kMediumAlbedoRow);
   }
 
@@ -106,9 +108,11 @@ class MediumPacker {
     for (int r = 0; r < 3; ++r) rows[r] = vec4(glm::row(to_index, r));
     const uint32_t channels = grid.channels < 3 ? 1 : 3;
     const uint32_t filtering = volume.filter == FilterType::kNearest ? gpu::kVolumeNearest : gpu::kVolumeTrilinear;
+    if (filtering == gpu::kVolumeNearest) kinds |= gpu::kMediaNearest;
     const uint32_t wrap = volume.wrap == WrapMode::kRepeat   ? gpu::kVolumeRepeat
                           : volume.wrap == WrapMode::kMirror ? gpu::kVolumeMirror
                                                              : gpu::kVolumeClamp;
+    if (wrap != gpu::kVolumeClamp) kinds |= gpu::kMediaRepeated;
     rows[3] = vec4(as_float(static_cast<uint32_t>(grid.nx) | static_cast<uint32_t>(grid.ny) << 16),
                    as_float(static_cast<uint32_t>(grid.nz) | channels << 16 | filtering << 24 | wrap << 28),
                    as_float(first_value(volume, channels)), 0);

@@ -65,16 +65,6 @@ uint place_of(uint queue, uint i) { return counters[kCounterPlace + queue] + i; 
 
 vec4 load_shadow(uint row, uint i) { return texelFetch(shadow_texels, int(row_index(row, i))); }
 
-// One atomic a subgroup. Its entries are in order of its lanes, so that neighbouring paths stay neighbours.
-void append_to_queue(uint queue, bool wanted, uint slot) {
-  uvec4 ballot = subgroupBallot(wanted);
-  uint count = subgroupBallotBitCount(ballot);
-  uint base = 0u;
-  if (subgroupElect() && count > 0u) base = atomicAdd(counters[length_word(queue, wave.bounce)], count);
-  uint i = subgroupBroadcastFirst(base) + subgroupBallotExclusiveBitCount(ballot);
-  if (wanted) store_queue(queue, i, slot);
-}
-
 void store_shadow_ray(uint place, vec3 o, uint leaving, vec3 d, uint target, vec3 contribution, uint slot) {
   shadow_pairs[place] = pack_rows(vec4(o, uintBitsToFloat(leaving)), vec4(d, uintBitsToFloat(target)));
   shadow_rows[row_index(2u, place)] = pack_row(vec4(contribution, uintBitsToFloat(slot)));

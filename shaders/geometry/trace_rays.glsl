@@ -20,10 +20,6 @@ uint count_lanes(bool counts) {
   return n;
 }
 
-// Where this subgroup's rays begin among those of its workgroup, and how many they are at most.
-uint rays_per_subgroup() { return kRaysPerLane * gl_SubgroupSize; }
-uint first_ray_in_group() { return gl_SubgroupID * rays_per_subgroup(); }
-
 // Rays next .. end - 1. All loops end for a whole subgroup at once, and what lives on is carried by them
 // (Mesa 22.3.6 confuses values that leave a divergent loop).
 void trace_rays(uint next, uint end, const bool any) {

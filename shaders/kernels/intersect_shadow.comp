@@ -24,7 +24,8 @@ void finish_ray(uint place, TraceHit hit) {
 
 void main() {
   uint first = first_ray_in_group();
-  uint count = list_rays(kQueueShadow, first, kCounterShadowTotal).count;
+  uint count = list_rays(kQueueShadow, first).count;
+  count_rays(kCounterShadowTotal, count);
   trace_rays(first, first + trace_walls(first, count, true), true);
   report_unfinished(rays_unfinished);
 }

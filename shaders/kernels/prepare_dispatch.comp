@@ -20,14 +20,14 @@ void set_groups(uint dispatch, uint lanes, uint lanes_per_group) {
 }
 
 void prepare_shadow(uint places) {
-  set_groups(kDispatchShadow, places, is_volumetric() ? kWorkgroupSize : kRaysPerGroup);
+  set_groups(kDispatchShadow, places, is_volumetric() ? kFewerRaysPerGroup : kRaysPerGroup);
   counters[kCounterQueue + kQueueShadow] = places;
 }
 
 void prepare_rays(uint queue, uint places) {
   counters[kCounterQueue + queue] = places;
   set_groups(kDispatchClosest, places, kRaysPerGroup);
-  if (has_media()) set_groups(kDispatchQueue + queue, places, kWorkgroupSize);
+  if (has_medium(kMediaSegments)) set_groups(kDispatchQueue + queue, places, kWorkgroupSize);
 }
 
 void main() {

@@ -5,34 +5,69 @@
 layout(local_size_x = 64) in;
 #include "base/queues.glsl"
 #include "medium/medium.glsl"
+#include "path/listed_rays.glsl"
 #include "path/path_sampler.glsl"
-#include "path/sort_path.glsl"
+#include "path/sort_paths.glsl"
 #include "path/termination.glsl"
 #include "path/volume_path.glsl"
 
-void main() {
-  uint i = gl_GlobalInvocationID.x;
-  uint slot = i < queue_length(wave.ray_queue) ? load_queue(wave.ray_queue, i) : kNoPath;
-  if (slot == kNoPath) return;
+// Lists those of the `count` rays listed from `first` on that are inside of media; returns how many. Of the others it
+// tells where their paths go.
+uint list_rays_inside(uint first, uint count) {
+  uint inside = 0u;
+  for (uint k = 0u; k < count; k += gl_SubgroupSize) {
+    uint i = k + gl_SubgroupInvocationID;
+    uint place = listed[first + min(i, count - 1u)];
+    uint slot = load_queue(wave.ray_queue, place);
+    VolumePath path = load_volume_path(slot);
+    bool is_inside = i < count && path.medium != kNoMedium;
+    uvec4 ballot = subgroupBallot(is_inside);
+    uint before = subgroupBallotExclusiveBitCount(ballot);
+    if (is_inside) listed[first + inside + before] = place;
+    if (i < count && !is_inside) {
+      vec4 hit = load_path(kPathHit, slot);
+      destinations[place % kRaysPerGroup] = queues_after(floatBitsToUint(hit.x), path.edges);
+    }
+    inside += subgroupBallotBitCount(ballot);
+  }
+  subgroupMemoryBarrierShared();
+  subgroupBarrier();
+  return inside;
+}
+
+void fly(bool live, uint place) {
+  uint slot = load_queue(wave.ray_queue, place);
   vec3 o = load_path(kPathOrigin, slot).xyz, d = load_path(kPathDirection, slot).xyz;
   vec4 beta = load_path(kPathBeta, slot), hit = load_path(kPathHit, slot);
   VolumePath path = load_volume_path(slot);
-  bool inside = path.medium != kNoMedium;
-
   uvec2 pixel;
   pixel_of(slot_tile_pixel(slot), pixel);
   PathSampler s = begin_path_sampler(film_pixel(pixel), slot_sample(slot), params.seed);
   uvec4 bits = sample_group(sampler_kind, s.key, s.index, group_medium(wave.bounce), log2_samples);
   WalkRandom random = WalkRandom(s.key, s.index, 2u * wave.bounce);
   bool overflow = false;
-  FreeFlight flight =
-      fly_medium(inside ? path.medium : 0u, o, d, inside ? hit.w : 0.0, beta.xyz, bits.xy, random, overflow);
-  if (inside && overflow) atomicAdd(counters[kCounterOverflow], 1u);
+  FreeFlight flight = fly_medium(path.medium, o, d, live ? hit.w : 0.0, beta.xyz, bits.xy, random, overflow);
+  if (live && overflow) atomicAdd(counters[kCounterOverflow], 1u);
 
-  bool collides = inside && flight.collides;
-  if (inside) store_path(kPathBeta, slot, vec4(flight.beta, beta.w));
+  bool collides = live && flight.collides;
+  if (live) store_path(kPathBeta, slot, vec4(flight.beta, beta.w));
   if (collides) store_path(kPathHit, slot, vec4(uintBitsToFloat(kNoHit), 0.0, 0.0, flight.t));
-  bool alive = !inside || flight.beta != vec3(0.0);
-  append_to_queue(kQueueSurface + class_count, alive && collides && path.edges < max_depth, slot);
-  sort_path(alive && !collides, slot, floatBitsToUint(hit.x), path.edges);
+  uint queues = collides ? (path.edges < max_depth ? kQueueSurface + class_count : kNoQueues)
+                         : queues_after(floatBitsToUint(hit.x), path.edges);
+  if (live) destinations[place % kRaysPerGroup] = flight.beta != vec3(0.0) ? queues : kNoQueues;
+}
+
+uint destination(uint place) { return destinations[place % kRaysPerGroup]; }
+
+void main() {
+  uint first = first_ray_in_group();
+  RayList list = list_rays(wave.ray_queue, first);
+  uint inside = list_rays_inside(first, list.count);
+  for (uint k = 0u; k < inside; k += gl_SubgroupSize) {
+    uint i = k + gl_SubgroupInvocationID;
+    fly(i < inside, listed[first + min(i, inside - 1u)]);
+  }
+  subgroupMemoryBarrierShared();
+  subgroupBarrier();
+  sort_paths(first_place(first), list.mask);
 }

@@ -17,46 +17,68 @@ vec2 walk_numbers(WalkRandom random, uint step) {
   return vec2(min((float(bits.x) + 0.5) * 2.3283064e-10, 1.0 - kEpsilon), unit_float(bits.y));
 }
 
+// Indices lie at most a cell outside the grid for `clamp`, anywhere for the others.
 ivec3 wrap_voxel(ivec3 i, ivec3 n, uint wrap) {
-  ivec3 clamped = clamp(i, ivec3(0), n - 1);
-  // Indices lie at most a cell outside the grid for `clamp`, anywhere for the others.
-  ivec3 twice = 2 * n;
-  ivec3 repeated = i - n * ivec3(floor(vec3(i) / vec3(n)));
-  ivec3 mirrored = i - twice * ivec3(floor(vec3(i) / vec3(twice)));
-  mirrored = min(mirrored, twice - 1 - mirrored);
-  return wrap == kVolumeClamp ? clamped : clamp(wrap == kVolumeRepeat ? repeated : mirrored, ivec3(0), n - 1);
+  ivec3 wrapped = i;
+  if (has_medium(kMediaRepeated)) {
+    ivec3 twice = 2 * n;
+    ivec3 repeated = i - n * ivec3(floor(vec3(i) / vec3(n)));
+    ivec3 mirrored = i - twice * ivec3(floor(vec3(i) / vec3(twice)));
+    mirrored = min(mirrored, twice - 1 - mirrored);
+    wrapped = wrap == kVolumeRepeat ? repeated : (wrap == kVolumeMirror ? mirrored : i);
+  }
+  return clamp(wrapped, ivec3(0), n - 1);
 }
 
-struct VolumeShape {
+// A volume along a ray: what its values at many points have in common.
+struct VolumeRay {
+  vec3 o, d;  // in index space; o is the value where the volume is constant
   ivec3 n;
-  uint channels, filtering, wrap, first;
+  int channels, first;  // 0 channels: constant
+  uint filtering, wrap;
 };
 
-vec3 load_voxel(VolumeShape v, ivec3 i) {
-  i = wrap_voxel(i, v.n, v.wrap);
-  int at = int(v.first) + ((i.z * v.n.y + i.y) * v.n.x + i.x) * int(v.channels);
-  float x = texelFetch(grids, at).x;
-  return v.channels == 1u ? vec3(x) : vec3(x, texelFetch(grids, at + 1).x, texelFetch(grids, at + 2).x);
-}
-
-// Value of the volume at row `row`, at a point of device space.
-vec3 load_volume(uint row, vec3 p) {
+// Row of the volume; o, d: in device space.
+VolumeRay begin_volume(uint row, vec3 o, vec3 d) {
   vec4 r0 = load_medium(row), r1 = load_medium(row + 1u), r2 = load_medium(row + 2u);
   uvec4 shape = floatBitsToUint(load_medium(row + 3u));
-  VolumeShape v = VolumeShape(ivec3(shape.x & 0xffffu, shape.x >> 16u, shape.y & 0xffffu), (shape.y >> 16u) & 0xffu,
-                              (shape.y >> 24u) & 0xfu, shape.y >> 28u, shape.z);
-  if (v.channels == 0u) return r0.xyz;
-  vec3 q = vec3(dot(r0.xyz, p) + r0.w, dot(r1.xyz, p) + r1.w, dot(r2.xyz, p) + r2.w);
-  q = clamp(q, vec3(-1e6), vec3(1e6));
-  if (v.filtering == kVolumeNearest) return load_voxel(v, ivec3(floor(q)));
+  VolumeRay v;
+  v.n = max(ivec3(shape.x & 0xffffu, shape.x >> 16u, shape.y & 0xffffu), ivec3(1));
+  v.channels = int((shape.y >> 16u) & 0xffu);
+  v.first = int(shape.z);
+  v.filtering = (shape.y >> 24u) & 0xfu;
+  v.wrap = shape.y >> 28u;
+  bool constant = v.channels == 0;
+  v.o = constant ? r0.xyz : vec3(dot(r0.xyz, o) + r0.w, dot(r1.xyz, o) + r1.w, dot(r2.xyz, o) + r2.w);
+  v.d = vec3(dot(r0.xyz, d), dot(r1.xyz, d), dot(r2.xyz, d));
+  return v;
+}
+
+// coloured: whether it may have three channels.
+vec3 load_voxel(VolumeRay v, int voxel, const bool coloured) {
+  int at = v.first + (coloured ? voxel * v.channels : voxel);
+  vec3 value = texelFetch(grids, at).xxx;
+  if (coloured && v.channels == 3) value.yz = vec2(texelFetch(grids, at + 1).x, texelFetch(grids, at + 2).x);
+  return value;
+}
+
+vec3 volume_at(VolumeRay v, float t, const bool coloured) {
+  vec3 q = clamp(v.o + t * v.d, vec3(-1e6), vec3(1e6));
+  ivec3 stride = ivec3(1, v.n.x, v.n.x * v.n.y);
   vec3 base = floor(q - 0.5), f = q - 0.5 - base;
+  ivec3 low = wrap_voxel(ivec3(base), v.n, v.wrap) * stride, high = wrap_voxel(ivec3(base) + 1, v.n, v.wrap) * stride;
   vec3 sum = vec3(0.0);
   for (int corner = 0; corner < 8; ++corner) {
-    ivec3 offset = ivec3(corner & 1, (corner >> 1) & 1, corner >> 2);
-    vec3 w = mix(1.0 - f, f, vec3(offset));
-    sum += w.x * w.y * w.z * load_voxel(v, ivec3(base) + offset);
+    bvec3 upper = bvec3((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0);
+    ivec3 i = mix(low, high, upper);
+    vec3 w = mix(1.0 - f, f, upper);
+    sum += w.x * w.y * w.z * load_voxel(v, i.x + i.y + i.z, coloured);
   }
-  return sum;
+  if (has_medium(kMediaNearest) && v.filtering == kVolumeNearest) {
+    ivec3 i = wrap_voxel(ivec3(floor(q)), v.n, v.wrap) * stride;
+    sum = load_voxel(v, i.x + i.y + i.z, coloured);
+  }
+  return v.channels == 0 ? v.o : sum;
 }
 
 // The part of a ray in the medium's box, as an interval of t in [0, tmax]; begin >= end: none.
@@ -126,6 +148,7 @@ bool walk_to_collision(inout MajorantWalk w, float depth) {
 FreeFlight fly_grid(uint medium, vec3 o, vec3 d, float tmax, vec3 beta, WalkRandom random, inout bool overflow) {
   uint row = medium * kMediumRows;
   float scale = load_medium(row + 2u).w;
+  VolumeRay sigma = begin_volume(row + kMediumSigmaRow, o, d);
   MajorantWalk walk = begin_walk(medium, o, d, tmax);
   FreeFlight flight = FreeFlight(false, tmax, beta);
   bool going = walk.t < walk.end;
@@ -134,7 +157,7 @@ FreeFlight fly_grid(uint medium, vec3 o, vec3 d, float tmax, vec3 beta, WalkRand
     vec2 u = walk_numbers(random, steps);
     bool within = walk_to_collision(walk, -xlog1p(-u.x));
     steps += 1u;
-    vec3 real = min(scale * load_volume(row + kMediumSigmaRow, o + walk.t * d) / walk.majorant, vec3(1.0));
+    vec3 real = min(scale * volume_at(sigma, walk.t, has_medium(kMediaColouredSigma)) / walk.majorant, vec3(1.0));
     float probability = dot(flight.beta, real) / (flight.beta.x + flight.beta.y + flight.beta.z);
     bool collides = within && u.y < probability;
     vec3 factor = collides ? real / probability : (1.0 - real) / (1.0 - probability);
@@ -144,7 +167,8 @@ FreeFlight fly_grid(uint medium, vec3 o, vec3 d, float tmax, vec3 beta, WalkRand
   }
   overflow = overflow || going || steps == kMaxCollisions;
   if (flight.collides) {
-    flight.beta *= load_volume(row + kMediumAlbedoRow, o + walk.t * d);
+    VolumeRay albedo = begin_volume(row + kMediumAlbedoRow, o, d);
+    flight.beta *= has_medium(kMediaAlbedoGrids) ? volume_at(albedo, walk.t, true) : albedo.o;
     flight.t = walk.t;
   }
   return flight;
@@ -155,6 +179,7 @@ FreeFlight fly_grid(uint medium, vec3 o, vec3 d, float tmax, vec3 beta, WalkRand
 vec3 transmittance_grid(uint medium, vec3 o, vec3 d, float tmax, WalkRandom random, inout bool overflow) {
   uint row = medium * kMediumRows;
   float scale = load_medium(row + 2u).w;
+  VolumeRay sigma = begin_volume(row + kMediumSigmaRow, o, d);
   MajorantWalk walk = begin_walk(medium, o, d, tmax);
   vec3 transmittance = vec3(1.0);
   bool going = walk.t < walk.end;
@@ -162,7 +187,7 @@ vec3 transmittance_grid(uint medium, vec3 o, vec3 d, float tmax, WalkRandom rand
   while (going) {
     bool within = walk_to_collision(walk, -xlog1p(-walk_numbers(random, steps).x));
     steps += 1u;
-    vec3 real = min(scale * load_volume(row + kMediumSigmaRow, o + walk.t * d) / walk.majorant, vec3(1.0));
+    vec3 real = min(scale * volume_at(sigma, walk.t, has_medium(kMediaColouredSigma)) / walk.majorant, vec3(1.0));
     transmittance = within ? transmittance * (1.0 - real) : transmittance;
     going = within && transmittance != vec3(0.0) && steps < kMaxCollisions;
   }

@@ -19,9 +19,8 @@ struct RayList {
   uint mask;  // bit k: whether place first_place + k of the lane has a ray
 };
 
-// Lists the rays of the queue's places that fall to this subgroup, from listed[first] on, and adds their number to a
-// counter.
-RayList list_rays(uint queue, uint first, uint total) {
+// Lists the rays of the queue's places that fall to this subgroup, from listed[first] on.
+RayList list_rays(uint queue, uint first) {
   uint begin = first_place(first), places = queue_length(queue);
   RayList list = RayList(0u, 0u);
   for (uint k = 0u; k < kRaysPerLane; ++k)
@@ -34,10 +33,14 @@ RayList list_rays(uint queue, uint first, uint total) {
       next += 1u;
     }
   }
-  if (subgroupElect() && list.count > 0u) atomicAdd(counters[total], list.count);
   subgroupMemoryBarrierShared();
   subgroupBarrier();
   return list;
+}
+
+// Adds the number of a subgroup's rays to a counter.
+void count_rays(uint counter, uint count) {
+  if (subgroupElect() && count > 0u) atomicAdd(counters[counter], count);
 }
 
 #endif

@@ -41,7 +41,11 @@ TACHYLITE_CONST uint kMediaGrids = 4u;
 TACHYLITE_CONST uint kMediaChromatic = 8u;    // some homogeneous sigma_t differs between channels
 TACHYLITE_CONST uint kMediaBlended = 16u;     // some phase function has several lobes
 TACHYLITE_CONST uint kMediaSegments = 32u;    // shade_segment samples point, spot and projector lights in homogeneous media
-TACHYLITE_CONST uint kMediaUniformChannel = 64u; // never set for a scene: the yardstick of tests/bench/media
+TACHYLITE_CONST uint kMediaColouredSigma = 64u;  // some grid of sigma_t has three channels
+TACHYLITE_CONST uint kMediaAlbedoGrids = 128u;   // some albedo is a grid
+TACHYLITE_CONST uint kMediaRepeated = 256u;      // some grid is repeated or mirrored outside of its box
+TACHYLITE_CONST uint kMediaNearest = 512u;       // some grid is looked up without interpolation
+TACHYLITE_CONST uint kMediaUniformChannel = 1024u; // never set for a scene: the yardstick of tests/bench/media
 
 // Surfaces without scattering that one shadow ray can pass.
 TACHYLITE_CONST uint kMaxCrossings = 64u;

@@ -26,6 +26,7 @@ TACHYLITE_CONST uint kPathRowsMedia = 6u;
 //          kTargetPoint (nothing to ignore, tmax = 1), or kTargetInfinite (tmax = infinity)
 //   row 2: contribution to L where nothing is in between; bits of the path's slot
 //   row 3: media or null surfaces only: bits of the medium at o; unused
+// Behind a null surface the rows become those of the rest of the ray (kernels/intersect_shadow_transmittance.comp).
 TACHYLITE_CONST uint kShadowRows = 3u;
 TACHYLITE_CONST uint kShadowRowsMedia = 4u;
 TACHYLITE_CONST uint kTargetInfinite = 0xffffffffu;
