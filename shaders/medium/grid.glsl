@@ -175,7 +175,8 @@ FreeFlight fly_grid(uint medium, vec3 o, vec3 d, float tmax, vec3 beta, WalkRand
 }
 
 // An unbiased estimate of the transmittance up to tmax (d of any length): ratio tracking, Novak, Selle and Jarosz
-// 2014, "Residual Ratio Tracking for Estimating Attenuation in Participating Media".
+// 2014, "Residual Ratio Tracking for Estimating Attenuation in Participating Media". Once it is below kLeastTransmittance
+// Russian roulette keeps it there or ends the walk.
 vec3 transmittance_grid(uint medium, vec3 o, vec3 d, float tmax, WalkRandom random, inout bool overflow) {
   uint row = medium * kMediumRows;
   float scale = load_medium(row + 2u).w;
@@ -185,10 +186,13 @@ vec3 transmittance_grid(uint medium, vec3 o, vec3 d, float tmax, WalkRandom rand
   bool going = walk.t < walk.end;
   uint steps = 0u;
   while (going) {
-    bool within = walk_to_collision(walk, -xlog1p(-walk_numbers(random, steps).x));
+    vec2 u = walk_numbers(random, steps);
+    bool within = walk_to_collision(walk, -xlog1p(-u.x));
     steps += 1u;
     vec3 real = min(scale * volume_at(sigma, walk.t, has_medium(kMediaColouredSigma)) / walk.majorant, vec3(1.0));
     transmittance = within ? transmittance * (1.0 - real) : transmittance;
+    float q = max_component(transmittance) / kLeastTransmittance;
+    if (q < 1.0) transmittance = u.y < q ? transmittance / q : vec3(0.0);
     going = within && transmittance != vec3(0.0) && steps < kMaxCollisions;
   }
   overflow = overflow || going || steps == kMaxCollisions;

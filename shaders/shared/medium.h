@@ -54,5 +54,8 @@ TACHYLITE_CONST uint kMajorantCells = 16u;    // at most, in each axis
 // less what the crossing of cells and traversal need.
 TACHYLITE_CONST uint kMaxCollisions = 28000u;
 
+// Shadow rays through grids play Russian roulette below it.
+TACHYLITE_CONST float kLeastTransmittance = 0.1f;
+
 TACHYLITE_SHARED_END
 #endif

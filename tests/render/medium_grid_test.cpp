@@ -8,6 +8,7 @@
 
 #include "pack/majorant_grid.h"
 #include "reference/reference.h"
+#include "shared/medium.h"
 #include "support/render_test.h"
 
 namespace tachylite::test {
@@ -19,15 +20,16 @@ using glm::dvec3;
 constexpr int kVoxels = 8, kSize = 32;
 constexpr double kColumn[kVoxels] = {0, 0, 3, 0, 0.2, 0, 0, 1.5};  // sigma_t along z at the camera's voxel
 
-/// 8^3 voxels of three channels over the cube [-1, 1]^3: empty but for a column and spikes beside it.
-std::shared_ptr<Grid> column_grid() {
+/// 8^3 voxels of one or three channels over the cube [-1, 1]^3: empty but for a column and spikes beside it.
+std::shared_ptr<Grid> column_grid(int channels) {
   auto grid = std::make_shared<Grid>();
   grid->nx = grid->ny = grid->nz = kVoxels;
-  grid->channels = 3;
-  grid->values.assign(kVoxels * kVoxels * kVoxels * 3, 0.0f);
+  grid->channels = channels;
+  grid->values.assign(static_cast<size_t>(kVoxels * kVoxels * kVoxels * channels), 0.0f);
   const auto set = [&](int x, int y, int z, double value) {
-    for (int c = 0; c < 3; ++c)
-      grid->values[static_cast<size_t>(3 * ((z * kVoxels + y) * kVoxels + x) + c)] = static_cast<float>(value / (1 << c));
+    for (int c = 0; c < channels; ++c)
+      grid->values[static_cast<size_t>(channels * ((z * kVoxels + y) * kVoxels + x) + c)] =
+          static_cast<float>(value / (1 << c));
   };
   for (int z = 0; z < kVoxels; ++z) {
     set(4, 4, z, kColumn[z]);
@@ -38,7 +40,8 @@ std::shared_ptr<Grid> column_grid() {
 }
 
 /// Seen along z through the centres of the column's voxels, where both filters have the same integral.
-Scene column_scene(FilterType filter, double scale, const std::string& light, const std::string& camera_z) {
+Scene column_scene(FilterType filter, double scale, const std::string& light, const std::string& camera_z,
+                   int channels = 3) {
   Scene scene = scene_from_elements(
       R"(<integrator type="volpath"><integer name="max_depth" value="2"/></integrator>)" +
       sensor_element(kSize, kSize, "0.125, 0.125, " + camera_z, "0.125, 0.125, -9", 1e-3) + light +
@@ -47,14 +50,14 @@ Scene column_scene(FilterType filter, double scale, const std::string& light, co
   HeterogeneousMedium medium;
   medium.scale = scale;
   medium.albedo.constant = dvec3(0);
-  medium.sigma_t.grid = column_grid();
+  medium.sigma_t.grid = column_grid(channels);
   medium.sigma_t.filter = filter;
   medium.sigma_t.to_world = dmat4(2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, -1, -1, -1, 1);
   scene.media[0].kind = medium;
   return scene;
 }
 
-/// Transmittance of the column.
+/// Transmittance of the column of three channels; the first is that of one channel, too.
 dvec3 column_transmittance(double scale) {
   double sum = 0;
   for (const double value : kColumn) sum += scale * value * 2 / kVoxels;
@@ -62,9 +65,9 @@ dvec3 column_transmittance(double scale) {
 }
 
 /// Every pixel has the expectation `expected`.
-void expect_pixels(const Scene& scene, const dvec3& expected, const char* name) {
+void expect_pixels(const Scene& scene, const dvec3& expected, const char* name, int samples = 64) {
   RenderOptions options;
-  options.samples = 64;
+  options.samples = samples;
   const DeviceRender result = render_on_device(scene, options);
   EXPECT_EQ(result.statistics.nonfinite + result.statistics.overflow, 0u);
   constexpr size_t kPixels = kSize * kSize;
@@ -93,6 +96,10 @@ TEST_F(MediumGrid, OpticalDepthThroughSpikesAndEmptyVoxels) {
     expect_pixels(column_scene(filter, 1, wall, "-1.55"), 0.5 / std::numbers::pi * column_transmittance(1),
                   "wall");
   }
+  // One channel, and so dense that Russian roulette ends most shadow rays.
+  const dvec3 dense(column_transmittance(2.7).x);
+  ASSERT_LT(dense.x, 0.5 * gpu::kLeastTransmittance);
+  expect_pixels(column_scene(FilterType::kBilinear, 2.7, wall, "-1.55", 1), 0.5 / std::numbers::pi * dense, "dense", 256);
 }
 
 TEST_F(MediumGrid, ConstantExtinctionFillsTheUnitCube) {
