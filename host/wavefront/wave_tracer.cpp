@@ -180,7 +180,7 @@ void WaveTracer::record_bounce(WaveParams& wave) {
   dispatch_queue(wave.bounce == 0 ? k.intersect_primary : k.intersect_closest, gpu::kDispatchClosest, wave);
   if (wave.bounce == 0) dispatch_lanes(k.write_aov, wave.pixel_count * wave.block_count, wave);
   if (k.shade_segment) {
-    dispatch_queue(k.shade_segment, gpu::kDispatchQueue + wave.ray_queue, wave);
+    dispatch_queue(k.shade_segment, gpu::kDispatchClosest, wave);
     prepare(gpu::kPrepareShadow, wave);
     dispatch_queue(k.intersect_shadow, gpu::kDispatchShadow, wave);
   }

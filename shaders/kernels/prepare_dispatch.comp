@@ -27,7 +27,6 @@ void prepare_shadow(uint places) {
 void prepare_rays(uint queue, uint places) {
   counters[kCounterQueue + queue] = places;
   set_groups(kDispatchClosest, places, kRaysPerGroup);
-  if (has_medium(kMediaSegments)) set_groups(kDispatchQueue + queue, places, kWorkgroupSize);
 }
 
 void main() {
