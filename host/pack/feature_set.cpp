@@ -49,6 +49,7 @@ std::vector<Named> named_features(const FeatureSet& f) {
           {(f.media & gpu::kMediaAlbedoGrids) != 0, "grids of albedo"},
           {(f.media & gpu::kMediaRepeated) != 0, "grids that repeat"},
           {(f.media & gpu::kMediaNearest) != 0, "grids without interpolation"},
+          {(f.media & gpu::kMediaDense) != 0, "dense media on grids"},
           {(f.media & gpu::kMediaChromatic) != 0, "coloured extinction"},
           {(f.media & gpu::kMediaBlended) != 0, "blended phase functions"},
           {(f.media & gpu::kMediaSegments) != 0, "point lights along segments"},

@@ -125,6 +125,8 @@ class MediumPacker {
     const glm::uvec3 n(majorants.cells);
     row.y = as_float(n.x | n.y << 8 | n.z << 16);
     // A little too large, so that no float product of scale and value is above it.
+    const double most = medium.scale * *std::ranges::max_element(majorants.values);
+    if (most * glm::length(high - low) > double{gpu::kMostMajorantDepth}) kinds |= gpu::kMediaDense;
     for (const double value : majorants.values)
       grids.push_back(static_cast<float>(medium.scale * value * (1 + 1e-6)));
   }

@@ -184,7 +184,7 @@ void WaveTracer::record_bounce(WaveParams& wave) {
     prepare(gpu::kPrepareShadow, wave);
     dispatch_queue(k.intersect_shadow, gpu::kDispatchShadow, wave);
   }
-  dispatch_queue(k.sample_medium, gpu::kDispatchClosest, wave);
+  dispatch_queue(k.sample_medium, gpu::kDispatchQueue + wave.ray_queue, wave);
   prepare(gpu::kPrepareShade, wave);
   dispatch_queue(k.shade_escaped, gpu::kDispatchQueue + gpu::kQueueEscaped, wave);
   dispatch_queue(k.shade_emitter, gpu::kDispatchQueue + gpu::kQueueEmitter, wave);

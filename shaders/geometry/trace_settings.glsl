@@ -1,15 +1,21 @@
-// How many rays a workgroup of 64 lanes of the trace kernels takes (geometry/trace_rays.glsl). Twice as many gain 1 %,
-// but Mesa 22.3.6 ends all loops of an invocation after 65535 iterations: this bounds the steps of a ray to 4000.
+// How many rays the kernels take that trace or list them, each workgroup of 64 lanes.
 #ifndef TACHYLITE_GEOMETRY_TRACE_SETTINGS_GLSL
 #define TACHYLITE_GEOMETRY_TRACE_SETTINGS_GLSL
 #extension GL_KHR_shader_subgroup_basic : require
+#include "base/features.glsl"
+#include "shared/medium.h"
 
-// RAYS_PER_GROUP: of a kernel that keeps more of a ray in shared memory.
-const uint kFewerRaysPerGroup = 512u;
-#ifndef RAYS_PER_GROUP
-#define RAYS_PER_GROUP 1024u
+// Twice as many gain 1 %, but Mesa 22.3.6 ends all loops of an invocation after 65535 iterations: this bounds the steps of
+// a ray to 4000 (geometry/trace_rays.glsl).
+const uint kTracedPerGroup = 64u * 16u;
+// Of kernels that walk through grids (WALKS_GRIDS).
+const uint kWalkedPerGroup = 64u * ((media_kinds & kMediaDense) != 0u ? 1u : kWalksPerLane);
+
+#ifdef WALKS_GRIDS
+const uint kRaysPerGroup = kWalkedPerGroup;
+#else
+const uint kRaysPerGroup = kTracedPerGroup;
 #endif
-const uint kRaysPerGroup = RAYS_PER_GROUP;
 const uint kRaysPerLane = kRaysPerGroup / 64u;
 
 // Where this subgroup's rays begin among those of its workgroup, and how many they are at most.

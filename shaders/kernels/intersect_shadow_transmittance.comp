@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
-#define RAYS_PER_GROUP kFewerRaysPerGroup
+#define WALKS_GRIDS
 #include "base/queues.glsl"
 #include "geometry/load.glsl"
 #include "geometry/surface.glsl"

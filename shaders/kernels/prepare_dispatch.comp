@@ -20,13 +20,14 @@ void set_groups(uint dispatch, uint lanes, uint lanes_per_group) {
 }
 
 void prepare_shadow(uint places) {
-  set_groups(kDispatchShadow, places, is_volumetric() ? kFewerRaysPerGroup : kRaysPerGroup);
+  set_groups(kDispatchShadow, places, is_volumetric() ? kWalkedPerGroup : kTracedPerGroup);
   counters[kCounterQueue + kQueueShadow] = places;
 }
 
 void prepare_rays(uint queue, uint places) {
   counters[kCounterQueue + queue] = places;
-  set_groups(kDispatchClosest, places, kRaysPerGroup);
+  set_groups(kDispatchClosest, places, kTracedPerGroup);
+  if (has_media()) set_groups(kDispatchQueue + queue, places, kWalkedPerGroup);
 }
 
 void main() {

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
+#define WALKS_GRIDS
 #include "base/queues.glsl"
 #include "medium/medium.glsl"
 #include "path/listed_rays.glsl"

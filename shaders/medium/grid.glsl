@@ -142,6 +142,8 @@ bool walk_to_collision(inout MajorantWalk w, float depth) {
   return collides;
 }
 
+uint max_collisions() { return has_medium(kMediaDense) ? kMaxCollisionsDense : kMaxCollisions; }
+
 // A tentative collision is real with the probability sigma_t / majorant, averaged over the channels in proportion to
 // the throughput; both outcomes are weighted by that average (Miller, Georgiev and Jarosz 2019, single-sample balance
 // heuristic over the channels): the sum of the throughput never grows. overflow: tracking was cut short.
@@ -163,9 +165,9 @@ FreeFlight fly_grid(uint medium, vec3 o, vec3 d, float tmax, vec3 beta, WalkRand
     vec3 factor = collides ? real / probability : (1.0 - real) / (1.0 - probability);
     flight.beta = within ? flight.beta * factor : flight.beta;
     flight.collides = collides;
-    going = within && !collides && steps < kMaxCollisions;
+    going = within && !collides && steps < max_collisions();
   }
-  overflow = overflow || going || steps == kMaxCollisions;
+  overflow = overflow || going || steps == max_collisions();
   if (flight.collides) {
     VolumeRay albedo = begin_volume(row + kMediumAlbedoRow, o, d);
     flight.beta *= has_medium(kMediaAlbedoGrids) ? volume_at(albedo, walk.t, true) : albedo.o;
@@ -193,9 +195,9 @@ vec3 transmittance_grid(uint medium, vec3 o, vec3 d, float tmax, WalkRandom rand
     transmittance = within ? transmittance * (1.0 - real) : transmittance;
     float q = max_component(transmittance) / kLeastTransmittance;
     if (q < 1.0) transmittance = u.y < q ? transmittance / q : vec3(0.0);
-    going = within && transmittance != vec3(0.0) && steps < kMaxCollisions;
+    going = within && transmittance != vec3(0.0) && steps < max_collisions();
   }
-  overflow = overflow || going || steps == kMaxCollisions;
+  overflow = overflow || going || steps == max_collisions();
   return transmittance;
 }
 

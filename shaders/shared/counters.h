@@ -38,7 +38,7 @@ TACHYLITE_CONST uint kCounterArguments = 3u * kMaxQueues + 6u;       // (x, y, z
 // Indirect dispatches.
 TACHYLITE_CONST uint kDispatchClosest = 0u;
 TACHYLITE_CONST uint kDispatchShadow = 1u;
-TACHYLITE_CONST uint kDispatchQueue = 2u;                       // + queue: one lane an entry
+TACHYLITE_CONST uint kDispatchQueue = 2u;                       // + queue: one lane an entry; of rays: sample_medium
 TACHYLITE_CONST uint kCounterWords = kCounterArguments + 4u * (kDispatchQueue + kMaxQueues);
 
 TACHYLITE_CONST uint kWorkgroupSize = 64u;
