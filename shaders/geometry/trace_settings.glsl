@@ -5,8 +5,8 @@
 #include "base/features.glsl"
 #include "shared/medium.h"
 
-// Twice as many gain 1 %, but Mesa 22.3.6 ends all loops of an invocation after 65535 iterations: this bounds the steps of
-// a ray to 4000 (geometry/trace_rays.glsl).
+// Twice as many gain 1 %, but Mesa 22.3.6 ends all loops of an invocation after 65535 iterations: this bounds the steps
+// of a ray to 4000 (geometry/trace_rays.glsl).
 const uint kTracedPerGroup = 64u * 16u;
 // Of kernels that walk through grids (WALKS_GRIDS).
 const uint kWalkedPerGroup = 64u * ((media_kinds & kMediaDense) != 0u ? 1u : kWalksPerLane);

@@ -105,8 +105,8 @@ uint pass_segments(uint first, uint count, uint crossings) {
   return left;
 }
 
-// No subgroupBarrier in the loop, which subgroups leave at different times (shaders/README.md): lanes wait for each other
-// at ballots.
+// No subgroupBarrier in the loop, which subgroups leave at different times (shaders/README.md): lanes wait for each
+// other at ballots.
 void main() {
   uint first = first_ray_in_group();
   uint count = list_rays(kQueueShadow, first).count;

@@ -51,7 +51,8 @@ void sample_ray(bool live, uint place) {
     wanted = false;
   }
   if (wanted) {
-    store_volume_shadow_ray(place, o + segment.t * d, kNoHit, segment.to_light, kTargetPoint, contribution, slot, medium);
+    store_volume_shadow_ray(place, o + segment.t * d, kNoHit, segment.to_light, kTargetPoint, contribution, slot,
+                            medium);
     store_queue(kQueueShadow, place, slot);
   }
 }

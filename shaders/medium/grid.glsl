@@ -177,8 +177,8 @@ FreeFlight fly_grid(uint medium, vec3 o, vec3 d, float tmax, vec3 beta, WalkRand
 }
 
 // An unbiased estimate of the transmittance up to tmax (d of any length): ratio tracking, Novak, Selle and Jarosz
-// 2014, "Residual Ratio Tracking for Estimating Attenuation in Participating Media". Once it is below kLeastTransmittance
-// Russian roulette keeps it there or ends the walk.
+// 2014, "Residual Ratio Tracking for Estimating Attenuation in Participating Media". Once it is below
+// kLeastTransmittance Russian roulette keeps it there or ends the walk.
 vec3 transmittance_grid(uint medium, vec3 o, vec3 d, float tmax, WalkRandom random, inout bool overflow) {
   uint row = medium * kMediumRows;
   float scale = load_medium(row + 2u).w;

@@ -45,15 +45,15 @@ TACHYLITE_CONST uint kMediaColouredSigma = 64u;  // some grid of sigma_t has thr
 TACHYLITE_CONST uint kMediaAlbedoGrids = 128u;   // some albedo is a grid
 TACHYLITE_CONST uint kMediaRepeated = 256u;      // some grid is repeated or mirrored outside of its box
 TACHYLITE_CONST uint kMediaNearest = 512u;       // some grid is looked up without interpolation
-TACHYLITE_CONST uint kMediaDense = 1024u;        // some majorants add up to more than kMostMajorantDepth across their box
+TACHYLITE_CONST uint kMediaDense = 1024u;        // some majorants may exceed kMostMajorantDepth across their box
 TACHYLITE_CONST uint kMediaUniformChannel = 2048u; // never set for a scene: the yardstick of tests/bench/media
 
 // Surfaces without scattering that one shadow ray can pass.
 TACHYLITE_CONST uint kMaxCrossings = 64u;
 TACHYLITE_CONST uint kMajorantCells = 16u;    // at most, in each axis
-// Tentative collisions of one ray in grids. A lane walks kWalksPerLane rays in turn, of dense media one, and Mesa 22.3.6
-// ends all its loops after 65535 iterations: collisions are half of them, because a loop over cells is inside, less what
-// the crossing of cells and traversal need. What is not dense stays far below (20 standard deviations).
+// Tentative collisions of one ray in grids. A lane walks kWalksPerLane rays in turn, of dense media one, and Mesa
+// 22.3.6 ends all its loops after 65535 iterations: collisions are half of them, because a loop over cells is inside,
+// less what the crossing of cells and traversal need. What is not dense stays far below (20 standard deviations).
 TACHYLITE_CONST uint kWalksPerLane = 8u;
 TACHYLITE_CONST uint kMaxCollisionsDense = 28000u;
 TACHYLITE_CONST uint kMaxCollisions = 3500u;

@@ -99,7 +99,8 @@ TEST_F(MediumGrid, OpticalDepthThroughSpikesAndEmptyVoxels) {
   // One channel, and so dense that Russian roulette ends most shadow rays.
   const dvec3 dense(column_transmittance(2.7).x);
   ASSERT_LT(dense.x, 0.5 * gpu::kLeastTransmittance);
-  expect_pixels(column_scene(FilterType::kBilinear, 2.7, wall, "-1.55", 1), 0.5 / std::numbers::pi * dense, "dense", 256);
+  expect_pixels(column_scene(FilterType::kBilinear, 2.7, wall, "-1.55", 1), 0.5 / std::numbers::pi * dense, "dense",
+                256);
 }
 
 TEST_F(MediumGrid, ConstantExtinctionFillsTheUnitCube) {
