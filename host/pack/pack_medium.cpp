@@ -59,10 +59,8 @@ class MediumPacker {
     rows[2] = vec4(glm::vec3(low), static_cast<float>(grid.scale));
     rows[3] = row(high);
     put_majorants(grid, glm::vec3(low), glm::vec3(high), rows[1]);
-    put_volume(grid.sigma_t, rows + gpu::kMediumSigmaRow);
-    if (grid.sigma_t.grid && grid.sigma_t.grid->channels >= 3) kinds |= gpu::kMediaColouredSigma;
-    if (grid.albedo.grid) kinds |= gpu::kMediaAlbedoGrids;
-    put_volume(grid.albedo, rows + gpu::kMediumAlbedoRow);
+    if (put_volume(grid.sigma_t, rows + gpu::kMediumSigmaRow) == 3) kinds |= gpu::kMediaColouredSigma;
+    if (put_volume(grid.albedo, rows + gpu::kMediumAlbedoRow) > 0) kinds |= gpu::kMediaAlbedoGrids;
   }
 
   /// Medium without effect.
@@ -94,10 +92,11 @@ class MediumPacker {
     lobes_.push_back(row(dvec3(before, weight, hg ? hg->g : 0.0)));
   }
 
-  void put_volume(const Volume& volume, vec4* rows) {
+  /// Returns its channels, 0 where it is constant.
+  uint32_t put_volume(const Volume& volume, vec4* rows) {
     if (!volume.grid) {
       rows[0] = row(volume.constant);
-      return;
+      return 0;
     }
     const Grid& grid = *volume.grid;
     if (std::max({grid.nx, grid.ny, grid.nz}) > 0xffff)
@@ -116,6 +115,7 @@ class MediumPacker {
     rows[3] = vec4(as_float(static_cast<uint32_t>(grid.nx) | static_cast<uint32_t>(grid.ny) << 16),
                    as_float(static_cast<uint32_t>(grid.nz) | channels << 16 | filtering << 24 | wrap << 28),
                    as_float(first_value(volume, channels)), 0);
+    return channels;
   }
 
   void put_majorants(const HeterogeneousMedium& medium, const dvec3& low, const dvec3& high, vec4& row) {
@@ -124,9 +124,9 @@ class MediumPacker {
     row.x = as_float(static_cast<uint32_t>(grids.size()));
     const glm::uvec3 n(majorants.cells);
     row.y = as_float(n.x | n.y << 8 | n.z << 16);
-    // A little too large, so that no float product of scale and value is above it.
     const double most = medium.scale * *std::ranges::max_element(majorants.values);
     if (most * glm::length(high - low) > double{gpu::kMostMajorantDepth}) kinds |= gpu::kMediaDense;
+    // A little too large, so that no float product of scale and value is above it.
     for (const double value : majorants.values)
       grids.push_back(static_cast<float>(medium.scale * value * (1 + 1e-6)));
   }

@@ -98,9 +98,7 @@ uint pass_segments(uint first, uint count, uint crossings) {
       place = listed[first + i];
       goes_on = pass_segment(place, crossings);
     }
-    uvec4 ballot = subgroupBallot(goes_on);
-    if (goes_on) listed[first + left + subgroupBallotExclusiveBitCount(ballot)] = place;
-    left += subgroupBallotBitCount(ballot);
+    keep_listed(goes_on, place, first, left);
   }
   return left;
 }

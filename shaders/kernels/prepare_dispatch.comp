@@ -7,10 +7,7 @@ layout(local_size_x = 1) in;
 #include "base/features.glsl"
 #include "base/queues.glsl"
 #include "geometry/trace_settings.glsl"
-#include "medium/record.glsl"
-
-// One past the last queue that sorting fills.
-uint queues_end() { return kQueueSurface + class_count + (has_media() ? 1u : 0u); }
+#include "path/volume_path.glsl"
 
 void set_groups(uint dispatch, uint lanes, uint lanes_per_group) {
   uint word = kCounterArguments + 4u * dispatch;

@@ -22,14 +22,11 @@ uint list_rays_inside(uint first, uint count) {
     uint slot = load_queue(wave.ray_queue, place);
     VolumePath path = load_volume_path(slot);
     bool is_inside = i < count && path.medium != kNoMedium;
-    uvec4 ballot = subgroupBallot(is_inside);
-    uint before = subgroupBallotExclusiveBitCount(ballot);
-    if (is_inside) listed[first + inside + before] = place;
+    keep_listed(is_inside, place, first, inside);
     if (i < count && !is_inside) {
       vec4 hit = load_path(kPathHit, slot);
       destinations[place % kRaysPerGroup] = queues_after(floatBitsToUint(hit.x), path.edges);
     }
-    inside += subgroupBallotBitCount(ballot);
   }
   subgroupMemoryBarrierShared();
   subgroupBarrier();

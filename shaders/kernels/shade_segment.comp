@@ -20,9 +20,7 @@ uint list_segments(uint first, uint count) {
     VolumePath path = load_volume_path(slot);
     bool inside = i < count && path.medium != kNoMedium && path.edges < max_depth && load_path(kPathHit, slot).w > 0.0;
     inside = inside && !is_grid(load_medium((inside ? path.medium : 0u) * kMediumRows));
-    uvec4 ballot = subgroupBallot(inside);
-    if (inside) listed[first + left + subgroupBallotExclusiveBitCount(ballot)] = place;
-    left += subgroupBallotBitCount(ballot);
+    keep_listed(inside, place, first, left);
   }
   return left;
 }

@@ -38,6 +38,14 @@ RayList list_rays(uint queue, uint first) {
   return list;
 }
 
+// Called by all lanes, in a loop over the places listed from `first` on, for what was read there: lists `place` again if
+// it is wanted. left: how many are so far. In order; entries are read before others are written over them.
+void keep_listed(bool wanted, uint place, uint first, inout uint left) {
+  uvec4 ballot = subgroupBallot(wanted);
+  if (wanted) listed[first + left + subgroupBallotExclusiveBitCount(ballot)] = place;
+  left += subgroupBallotBitCount(ballot);
+}
+
 // Adds the number of a subgroup's rays to a counter.
 void count_rays(uint counter, uint count) {
   if (subgroupElect() && count > 0u) atomicAdd(counters[counter], count);

@@ -5,7 +5,7 @@
 #include "base/queues.glsl"
 #include "geometry/load.glsl"
 #include "geometry/trace_settings.glsl"
-#include "medium/record.glsl"
+#include "path/volume_path.glsl"
 #include "shared/geometry.h"
 
 // Two at most, as one word: that of a surface or of escaped rays, or none (0), and kToEmitter.
@@ -36,8 +36,7 @@ uint destination(uint place);
 // Appends the paths of this subgroup's rays to their queues: six queues at a time, with one atomic each. Each lane has
 // neighbouring rays, so that entries keep the order of the rays.
 void sort_paths(uint begin, uint mask) {
-  uint queues_end = kQueueSurface + class_count + (has_media() ? 1u : 0u);
-  for (uint queue = kQueueEmitter; queue < queues_end; queue += 6u) {
+  for (uint queue = kQueueEmitter; queue < queues_end(); queue += 6u) {
     uvec3 lengths = uvec3(0u);  // of the lane's parts of the six, 16 bits each
     for (uint k = 0u; k < kRaysPerLane; ++k) {
       uint i = (begin + k) % kRaysPerGroup, queues = destinations[i];

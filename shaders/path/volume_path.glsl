@@ -4,6 +4,9 @@
 #include "base/queues.glsl"
 #include "medium/record.glsl"
 
+// One past the last queue that sorting fills.
+uint queues_end() { return kQueueSurface + class_count + (has_media() ? 1u : 0u); }
+
 struct VolumePath {
   uint medium;
   uint edges;      // of the path with its last ray; those that begin on null surfaces are parts of the edge before

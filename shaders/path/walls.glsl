@@ -53,9 +53,7 @@ uint trace_walls(uint first, uint count, const bool any) {
     goes_on = goes_on && slots != 0u;
     if (goes_on) wall_slots[place % kRaysPerGroup] = slots;
     if (!any && goes_on) wall_distances[place % kRaysPerGroup] = ray.tmax;
-    uvec4 ballot = subgroupBallot(goes_on);
-    if (goes_on) listed[first + left + subgroupBallotExclusiveBitCount(ballot)] = place;
-    left += subgroupBallotBitCount(ballot);
+    keep_listed(goes_on, place, first, left);
   }
   // Not in the loop, which subgroups leave at different times: entries are read before others are written over them.
   // Hits may be written once more, by other lanes.
