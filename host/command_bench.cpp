@@ -78,7 +78,7 @@ Contestant external_contestant(const ExternalRenderer& renderer, const BenchArgu
 
 SceneMeasurement bench_scene(const BenchArguments& arguments, const MeasureOptions& measure,
                              const std::filesystem::path& file, std::span<const ExternalRenderer> externals,
-                             vulkan::Device& device) {
+                             vulkan::DevicePool& devices) {
   SceneMeasurement result;
   result.name = name_of(file);
   result.file = file.string();
@@ -102,13 +102,13 @@ SceneMeasurement bench_scene(const BenchArguments& arguments, const MeasureOptio
   options.guiding = arguments.guiding;
   options.max_paths = arguments.max_paths;
   const Seconds before{cpu.seconds(), wall.seconds()};
-  const SceneRenders renders(device, packed, options, before);
+  const SceneRenders renders(devices, packed, options, before);
   const ScratchFolder scratch;
   std::vector<Contestant> contestants = {
       {"tachylite", [&](uint64_t samples, uint32_t seed) { return renders.render(samples, seed); }, 0}};
   RenderOptions adaptive_options = options;
   adaptive_options.adaptive = true;
-  const SceneRenders adaptive_renders(device, packed, adaptive_options, before);
+  const SceneRenders adaptive_renders(devices, packed, adaptive_options, before);
   if (arguments.adaptive)
     contestants.push_back(
         {"adaptive", [&](uint64_t samples, uint32_t seed) { return adaptive_renders.render(samples, seed); }, 0});
@@ -145,7 +145,8 @@ int run_bench(const BenchArguments& arguments) {
   }
 
   if (all_baked) vulkan::prefer_wide_vectors();
-  vulkan::Device device(device_options(arguments.device));
+  vulkan::DevicePool pool(device_options(arguments.device));
+  vulkan::Device& device = pool.one();
   Report report;
   report.version = TACHYLITE_VERSION;
   report.device = device.info().name;
@@ -164,14 +165,14 @@ int run_bench(const BenchArguments& arguments) {
   };
   for (const std::filesystem::path& file : arguments.scenes) {
     scene_name = name_of(file);
-    report.scenes.push_back(bench_scene(arguments, measure, file, externals, device));
+    report.scenes.push_back(bench_scene(arguments, measure, file, externals, pool));
   }
   for (const std::string& name : arguments.scaling) {
     log_info("scaling: " + name);
     report.scaling.push_back(measure_scaling(name, device, arguments.scaling_seconds, measure.cpu_clock ? measure.cores : 0));
   }
   display.finish();
-  check_validation(device);
+  check_validation(pool.validation_messages());
 
   if (baseline) report.against = compare_reports(report, *baseline);
   for (const std::filesystem::path& file : arguments.outputs)

@@ -46,8 +46,7 @@ vulkan::DeviceOptions device_options(const std::string& selector) {
   return options;
 }
 
-void check_validation(const vulkan::Device& device) {
-  const std::vector<std::string> messages = device.validation_messages();
+void check_validation(const std::vector<std::string>& messages) {
   if (!messages.empty())
     throw RenderError(
         fmt::format("{} validation messages, the first: {}", messages.size(), messages.front()));

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "vulkan/device.h"
 
@@ -16,7 +17,7 @@ std::string describe(const vulkan::DeviceInfo& device);
 
 /// With validation layers in debug builds, and where the environment has TACHYLITE_VALIDATION=1.
 vulkan::DeviceOptions device_options(const std::string& selector);
-/// Throws RenderError with the first of the device's validation messages, if there are any.
-void check_validation(const vulkan::Device& device);
+/// Throws RenderError with the first of a device's validation messages, if there are any.
+void check_validation(const std::vector<std::string>& messages);
 
 }  // namespace tachylite

@@ -175,11 +175,11 @@ int run_render(const RenderArguments& arguments) {
   if (packed) vulkan::prefer_wide_vectors();
   FinishedRender finished{.film = FilmBuffer(1, 1)};
   const auto attempt = [&] {
-    vulkan::Device device(device_options(arguments.device));
+    vulkan::DevicePool pool(device_options(arguments.device));
+    const vulkan::DeviceInfo& info = pool.one().info();
     if (!film) {
-      log_info(fmt::format("{}; on {}", summarize(scene, arguments.scene.sensor), describe(device.info())));
+      log_info(fmt::format("{}; on {}", summarize(scene, arguments.scene.sensor), describe(info)));
       if (!packed) packed = pack_scene(scene, arguments.scene.sensor);
-      const vulkan::DeviceInfo& info = device.info();
       finished.identity = render_identity(scene, arguments.scene.sensor, options.seed,
                                           sampling_name(options), info.name,
                                           fmt::format("{} {}", info.driver, info.driver_version));
@@ -188,14 +188,16 @@ int run_render(const RenderArguments& arguments) {
                                                        gpu::kBlockSamples))
         film = std::move(begun);
     }
-    Renderer renderer(device, *packed, options);
+    const uint32_t devices = arguments.devices > 0 ? arguments.devices : count_devices(info, *packed, options);
+    Renderer renderer(pool.side_by_side(devices), *packed, options);
     log_info(fmt::format("runs: {}", fmt::join(renderer.stages_run(), ", ")));
     log_info(fmt::format("skipped: {}", fmt::join(renderer.stages_skipped(), ", ")));
+    if (devices > 1) log_info(fmt::format("on {} devices side by side", devices));
     if (!interrupt) interrupt.emplace();
     renderer.render_into(*film);
     display.finish();
-    check_validation(device);
-    finished.statistics = statistics_of(device.info(), renderer, scene, *packed);
+    check_validation(pool.validation_messages());
+    finished.statistics = statistics_of(info, renderer, scene, *packed);
   };
   try {
     attempt();

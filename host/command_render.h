@@ -29,6 +29,7 @@ struct RenderArguments {
   SamplerKind sampler = SamplerKind::kSobol;
   Guiding guiding = Guiding::kAuto;
   uint32_t max_paths = RenderOptions{}.max_paths;
+  uint32_t devices = 0;  // side by side; 0: as many as pay
   std::filesystem::path stats;  // empty: none
   bool quiet = false;
 };

@@ -36,7 +36,7 @@ class Verifier {
     };
     Renderer renderer(device_, packed_, options);
     const FilmBuffer film = renderer.render();
-    check_validation(device_);
+    check_validation(device_.validation_messages());
     const RenderStatistics& statistics = renderer.statistics();
     if (statistics.nonfinite + statistics.overflow > 0)
       throw RenderError(

@@ -27,6 +27,7 @@ namespace {
 constexpr int kExitFailed = 1, kExitBadInput = 2;
 constexpr uint32_t kMostPaths = uint32_t{1} << 26;
 constexpr int kMostThreads = 1024;
+constexpr uint32_t kMostDevices = 64;
 
 void add_scene_options(CLI::App& command, SceneArguments& scene) {
   command.add_option("scene", scene.file, "Mitsuba 3 scene")->required()->type_name("SCENE.xml");
@@ -204,6 +205,10 @@ int run(int argc, char** argv) {
       .add_flag("--adaptive", render.adaptive, "more samples where the image is noisier, without bias; N is their mean")
       ->excludes("--resume");
   add_guiding_option(render_command, render.guiding);
+  render_command
+      .add_option("--side-by-side", render.devices, "so many of the device share the work; as many as pay unless given")
+      ->type_name("N")
+      ->check(CLI::Range(1u, kMostDevices));
 
   RenderArguments reference;
   CLI::App& reference_command = *app.add_subcommand("reference", "renders on the CPU reference");

@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <memory>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -15,7 +16,22 @@
 namespace tachylite {
 namespace {
 std::unique_ptr<tbb::global_control> thread_limit;
+
+// body(i), whose exception goes to failures[i].
+void try_body(const std::function<void(size_t)>& body, size_t i, std::vector<std::exception_ptr>& failures) {
+  try {
+    body(i);
+  } catch (...) {
+    failures[i] = std::current_exception();
+  }
 }
+
+void rethrow_first(const std::vector<std::exception_ptr>& failures) {
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace
 
 void parallel_for(size_t begin, size_t end, size_t grain, const std::function<void(size_t, size_t)>& body) {
   tbb::parallel_for(
@@ -26,14 +42,19 @@ void parallel_for(size_t begin, size_t end, size_t grain, const std::function<vo
 void parallel_for_each(size_t count, const std::function<void(size_t)>& body) {
   std::vector<std::exception_ptr> failures(count);
   parallel_for(0, count, 1, [&](size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i) try {
-        body(i);
-      } catch (...) {
-        failures[i] = std::current_exception();
-      }
+    for (size_t i = first; i < last; ++i) try_body(body, i, failures);
   });
-  for (const std::exception_ptr& failure : failures)
-    if (failure) std::rethrow_exception(failure);
+  rethrow_first(failures);
+}
+
+void run_side_by_side(size_t count, const std::function<void(size_t)>& body) {
+  std::vector<std::exception_ptr> failures(count);
+  {
+    std::vector<std::jthread> threads;
+    for (size_t i = 1; i < count; ++i) threads.emplace_back([&, i] { try_body(body, i, failures); });
+    if (count > 0) try_body(body, 0, failures);
+  }
+  rethrow_first(failures);
 }
 
 size_t parallel_scan(size_t items, const std::function<size_t(size_t, size_t)>& count,

@@ -48,7 +48,11 @@ size_t parallel_scan(size_t items, const std::function<size_t(size_t, size_t)>& 
 /// Runs both, perhaps at the same time; returns after both have ended.
 void parallel_invoke(const std::function<void()>& a, const std::function<void()>& b);
 
-/// Number of threads of everything above; 0 means one per core. Takes effect for calls made after it.
+/// Calls body(i) for each i below `count`, each on a thread of its own, whatever the number of threads below: for what
+/// mostly waits for a device of its own. The exception that is rethrown is that of the least i.
+void run_side_by_side(size_t count, const std::function<void(size_t)>& body);
+
+/// Number of threads of all others; 0 means one per core. Takes effect for calls made after it.
 void set_thread_count(int count);
 int thread_count();
 

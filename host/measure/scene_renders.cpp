@@ -8,17 +8,19 @@
 
 namespace tachylite {
 
-SceneRenders::SceneRenders(vulkan::Device& device, const PackedScene& packed, const RenderOptions& options,
+SceneRenders::SceneRenders(vulkan::DevicePool& devices, const PackedScene& packed, const RenderOptions& options,
                            Seconds before)
-    : device_(device), packed_(packed), options_(options), before_(before) {}
+    : devices_(devices), packed_(packed), options_(options), before_(before) {}
 
 TimedImage SceneRenders::render(uint64_t samples, uint32_t seed) const {
   RenderOptions options = options_;
   options.samples = samples;
   options.seed = seed;
+  const vulkan::DevicePool::Devices devices =
+      devices_.side_by_side(count_devices(devices_.one().info(), packed_, options));
   const Timer wall;
   const CpuTimer cpu;
-  Renderer renderer(device_, packed_, options);
+  Renderer renderer(devices, packed_, options);
   compile_ = {cpu.seconds(), wall.seconds()};
   const FilmBuffer film = renderer.render();
   TimedImage result;
@@ -38,7 +40,7 @@ std::vector<StageTime> SceneRenders::stage_times(uint64_t samples) const {
   RenderOptions options = options_;
   options.samples = samples;
   options.timing = true;
-  Renderer renderer(device_, packed_, options);
+  Renderer renderer(devices_.one(), packed_, options);
   renderer.render();
   std::vector<StageTime> stages;
   for (const auto& [name, time] : renderer.statistics().kernels)

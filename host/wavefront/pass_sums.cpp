@@ -16,15 +16,23 @@ std::optional<size_t> pixel_index(const gpu::RenderParams& params, uint32_t tile
   return y * params.width + x;
 }
 
-PassSums::PassSums(const gpu::RenderParams& params, uint32_t blocks, const PackedScene& scene)
+PassSums::PassSums(const gpu::RenderParams& params, uint32_t blocks, const PackedScene& scene, bool gathers)
     : params_(params),
       all_pixels_(params.tile_count * kTilePixels),
       blocks_(blocks),
+      gathers_(gathers),
       aovs_(scene.aovs),
       aov_kinds_(scene.features.aovs),
       centre_(scene.centre),
       rows_(1 + static_cast<size_t>(std::popcount(scene.features.aovs))),
-      gathered_(rows_.size()) {}
+      gathered_(rows_.size()) {
+  for (size_t row = 0; gathers_ && row < rows_.size(); ++row) rows_[row] = gather(row);
+}
+
+const glm::vec4* PassSums::gather(size_t row) {
+  if (!gathered_[row]) gathered_[row] = std::make_unique_for_overwrite<glm::vec4[]>(size_t{all_pixels_} * blocks_);
+  return gathered_[row].get();
+}
 
 std::vector<std::string> PassSums::extra_channels() const {
   std::vector<std::string> names;
@@ -35,10 +43,11 @@ std::vector<std::string> PassSums::extra_channels() const {
 void PassSums::take(const gpu::WaveParams& wave, const glm::vec4* film, const glm::vec4* aov) {
   for (size_t row = 0; row < rows_.size(); ++row) {
     const glm::vec4* source = row == 0 ? film : aov + (row - 1) * params_.aov_stride;
-    rows_[row] = source;
-    if (wave.pixel_count == all_pixels_) continue;
-    if (!gathered_[row]) gathered_[row] = std::make_unique_for_overwrite<glm::vec4[]>(size_t{all_pixels_} * blocks_);
-    rows_[row] = gathered_[row].get();
+    if (!gathers_ && wave.pixel_count == all_pixels_) {
+      rows_[row] = source;
+      continue;
+    }
+    if (!gathers_) rows_[row] = gather(row);
     parallel_for_each(wave.block_count, [&](size_t b) {
       std::copy_n(source + b * wave.pixel_count, wave.pixel_count,
                   &gathered_[row][b * all_pixels_ + wave.first_pixel]);

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <condition_variable>
+#include <deque>
 #include <limits>
-#include <span>
+#include <mutex>
+#include <optional>
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/timer.h"
 #include "shared/counters.h"
 #include "shared/path_state.h"
@@ -27,6 +31,12 @@ constexpr auto kLeastPilotBlocks = static_cast<uint32_t>(kLeastPilot / gpu::kBlo
 // Paths in flight. More gain little: caches of a CPU hold few of them, and a GPU has no more lanes.
 constexpr uint64_t kPathsOfCpu = 1u << 18, kPathsOfGpu = 1u << 22;
 constexpr uint64_t kShareOfMemory = 8;  // all of them take at most an eighth of a GPU's
+constexpr uint64_t kLeastOfCpus = 1u << 16;  // of each of several devices
+
+// Several devices: at most so many, each with so many paths to trace at least; renders that last longer.
+constexpr uint64_t kMostDevices = 8, kPathsWorthDevice = 1u << 21;
+constexpr double kSecondsWorthDevices = 10;
+constexpr uint64_t kShareOfScene = 2;  // all devices together take at most half of the memory
 
 uint32_t default_paths(const PackedScene& scene, const vulkan::DeviceInfo& device) {
   if (device.type == VK_PHYSICAL_DEVICE_TYPE_CPU) return kPathsOfCpu;
@@ -39,10 +49,32 @@ uint32_t default_paths(const PackedScene& scene, const vulkan::DeviceInfo& devic
   return static_cast<uint32_t>(std::clamp(fit, kPathsOfCpu, kPathsOfGpu));
 }
 
-RenderOptions with_defaults(RenderOptions options, const PackedScene& scene, const vulkan::DeviceInfo& device) {
+// Of each of so many devices.
+RenderOptions with_defaults(RenderOptions options, const PackedScene& scene, const vulkan::DeviceInfo& device,
+                            uint32_t devices) {
   options.adaptive = options.adaptive && pilot_samples(options.samples) < options.samples;
-  if (options.max_paths == 0) options.max_paths = default_paths(scene, device);
+  if (options.max_paths == 0)
+    options.max_paths = std::max(default_paths(scene, device) / devices, static_cast<uint32_t>(kLeastOfCpus));
+  else
+    options.max_paths = std::max(options.max_paths / devices, 1u);
   return options;
+}
+
+// One pass over all pixels, a few blocks of samples of each, whose waves devices take one by one.
+struct Pass {
+  WaveParams wave;  // without pixels
+  SampleRange samples;
+  PassSums sums;
+  uint32_t begun_pixels = 0, finished_pixels = 0;  // in tile order
+};
+
+// How many of the listed blocks, at most `rows`, a wave takes: all of a pixel, where they fit, so that no other device
+// has blocks of it which might stay after those before them were abandoned.
+size_t whole_pixels(std::span<const glm::uvec2> listed, size_t rows) {
+  if (rows >= listed.size()) return listed.size();
+  size_t count = rows;
+  while (count > 0 && listed[count].x == listed[count - 1].x) --count;
+  return count > 0 ? count : rows;
 }
 
 }  // namespace
@@ -56,28 +88,49 @@ uint64_t MemoryPlan::total() const {
 struct Renderer::Impl {
   const PackedScene& scene;
   RenderOptions options;
-  WaveTracer tracer;
+  std::vector<std::unique_ptr<WaveTracer>> tracers;  // one a device
   const gpu::RenderParams& params;
   RenderStatistics statistics;
 
-  // Of the render that goes on.
+  // Of the render that goes on. Several devices: what they change, and the film, belongs to who holds the mutex.
+  std::mutex mutex;
+  std::condition_variable pass_added;
+  bool ended = false;              // no device takes a wave any more, and waves may be abandoned
   Timer timer;
   double seconds_before = 0;       // that learning the guide took, where this is the first render
   RenderProgress progress;
   uint64_t begun_paths = 0;        // that the film had before
   uint64_t estimated_samples = 0;  // when progress.relative_error was computed
 
-  Impl(vulkan::Device& device, const PackedScene& s, const RenderOptions& o)
-      : scene(s), options(with_defaults(o, s, device.info())), tracer(device, s, options), params(tracer.params()) {
-    statistics.upload_seconds = tracer.upload_seconds();
-    statistics.compile_seconds = tracer.compile_seconds();
-    statistics.device_bytes = device.allocated_bytes();
-    seconds_before = tracer.guide_seconds();
+  Impl(std::span<vulkan::Device* const> devices, const PackedScene& s, const RenderOptions& o)
+      : scene(s),
+        options(with_defaults(o, s, devices[0]->info(), static_cast<uint32_t>(devices.size()))),
+        tracers(make_tracers(devices)),
+        params(tracers[0]->params()) {
+    if (tracers[0]->may_guide()) learn_guide();
+    for_each_tracer([&](WaveTracer& tracer) { tracer.build_surface_kernels(guided); });
+    for (const auto& tracer : tracers) {
+      statistics.upload_seconds = std::max(statistics.upload_seconds, tracer->upload_seconds());
+      statistics.compile_seconds = std::max(statistics.compile_seconds, tracer->compile_seconds());
+    }
+    for (const vulkan::Device* device : devices) statistics.device_bytes += device->allocated_bytes();
   }
+  std::vector<std::unique_ptr<WaveTracer>> make_tracers(std::span<vulkan::Device* const> devices) const;
+  void learn_guide();
+  /// body(WaveTracer&), side by side.
+  template <class Body>
+  void for_each_tracer(const Body& body) {
+    run_side_by_side(tracers.size(), [&](size_t i) { body(*tracers[i]); });
+  }
+  /// body(WaveTracer&, RenderStatistics&, std::unique_lock&) side by side: takes waves until there are none or `ended`
+  /// is set, and holds the lock but while it traces.
+  template <class Body>
+  void trace_waves(const Body& body);
+
   /// Passes over all pixels, to options.samples or the end of the pilot. False where the render is over.
-  bool add_passes(FilmBuffer& film, PassSums& sums);
+  bool add_passes(FilmBuffer& film);
   /// What comes after the pilot.
-  void add_where_noisy(FilmBuffer& film, const PassSums& sums);
+  void add_where_noisy(FilmBuffer& film);
   /// To the caller, who may say stop; the film has `pixel_samples_more` to come, summed over its pixels.
   bool report(const FilmBuffer& film, uint64_t pixel_samples_more);
   bool within_limits(const FilmBuffer& film);
@@ -85,22 +138,47 @@ struct Renderer::Impl {
   double next_samples(double samples) const;
   double seconds() const { return seconds_before + timer.seconds(); }
   static uint64_t paths_of(const FilmBuffer& film);
+
+  bool guided = false;
 };
 
+uint32_t count_devices(const vulkan::DeviceInfo& device, const PackedScene& scene, const RenderOptions& options) {
+  const bool short_one = options.time_limit > 0 && options.time_limit < kSecondsWorthDevices;
+  if (device.driver != "llvmpipe" || short_one || WavePlan(scene, options).baked) return 1;
+  const uint64_t paths = uint64_t{scene.params.width} * scene.params.height * options.samples;
+  const uint64_t memory = Renderer::plan_memory(device, scene, options, 2).total();
+  const uint64_t count = std::min({uint64_t{vulkan::llvmpipe_threads()}, kMostDevices, paths / kPathsWorthDevice,
+                                   device.device_memory / kShareOfScene / std::max(memory, uint64_t{1})});
+  return static_cast<uint32_t>(std::max(count, uint64_t{1}));
+}
+
 Renderer::Renderer(vulkan::Device& device, const PackedScene& scene, const RenderOptions& options) : scene_(scene) {
+  vulkan::Device* const only = &device;
+  make(std::span(&only, 1), options);
+}
+
+Renderer::Renderer(vulkan::DevicePool::Devices devices, const PackedScene& scene, const RenderOptions& options)
+    : scene_(scene) {
+  std::vector<vulkan::Device*> all;
+  for (const auto& device : devices) all.push_back(device.get());
+  make(all, options);
+}
+
+void Renderer::make(std::span<vulkan::Device* const> devices, const RenderOptions& options) {
   if (options.first_sample % kBlockSamples != 0)
     throw InputError(fmt::format("--first-sample must be a multiple of {}", kBlockSamples));
   if (options.samples == 0 || options.samples > kMostSamples || options.first_sample > kMostSamples - options.samples)
     throw InputError(fmt::format("samples must lie in 1..{} together with the first sample", kMostSamples));
-  const MemoryPlan plan = plan_memory(device.info(), scene, options);
+  const vulkan::DeviceInfo& info = devices[0]->info();
+  const MemoryPlan plan = plan_memory(info, scene_, options, static_cast<uint32_t>(devices.size()));
   for (const MemoryPlan::Entry& e : plan.buffers)
     if (e.bytes > e.limit)
       throw RenderError(fmt::format("{} need {} bytes, but a buffer on {} holds at most {}", e.name, e.bytes,
-                                    device.info().name, e.limit));
-  if (plan.total() > device.info().device_memory)
-    throw RenderError(fmt::format("the render needs {} bytes of device memory, but {} has {}", plan.total(),
-                                  device.info().name, device.info().device_memory));
-  impl_ = std::make_unique<Impl>(device, scene, options);
+                                    info.name, e.limit));
+  if (plan.total() > info.device_memory)
+    throw RenderError(fmt::format("the render needs {} bytes of device memory, but {} has {}", plan.total(), info.name,
+                                  info.device_memory));
+  impl_ = std::make_unique<Impl>(devices, scene_, options);
 }
 
 Renderer::~Renderer() = default;
@@ -119,13 +197,61 @@ void Renderer::render_into(FilmBuffer& film) {
   r.progress.target_samples = r.options.samples;
   r.begun_paths = r.paths_of(film);
   r.estimated_samples = 0;
-  PassSums sums(r.params, r.tracer.most_blocks(), r.scene);
-  const bool goes_on = r.add_passes(film, sums);
-  if (goes_on && r.options.adaptive && film.has_variance()) r.add_where_noisy(film, sums);
+  const bool goes_on = r.add_passes(film);
+  if (goes_on && r.options.adaptive && film.has_variance()) r.add_where_noisy(film);
   r.statistics.render_seconds = r.seconds();
   r.seconds_before = 0;
-  r.statistics.kernels = r.tracer.kernel_times();
+  r.statistics.kernels.clear();
+  for (const auto& tracer : r.tracers)
+    for (const auto& [name, time] : tracer->kernel_times()) {
+      vulkan::KernelTime& sum = r.statistics.kernels[name];
+      sum.dispatches += time.dispatches;
+      sum.seconds += time.seconds / static_cast<double>(r.tracers.size());
+    }
   r.statistics.paths = r.paths_of(film) - r.begun_paths;
+}
+
+std::vector<std::unique_ptr<WaveTracer>> Renderer::Impl::make_tracers(std::span<vulkan::Device* const> devices) const {
+  std::vector<std::unique_ptr<WaveTracer>> made(devices.size());
+  run_side_by_side(devices.size(),
+                   [&](size_t i) { made[i] = std::make_unique<WaveTracer>(*devices[i], scene, options); });
+  return made;
+}
+
+// Photons are counted in integers: the guide does not depend on who has traced them.
+void Renderer::Impl::learn_guide() {
+  const auto parts = static_cast<uint32_t>(tracers.size());
+  run_side_by_side(parts, [&](size_t i) { tracers[i]->trace_photons(static_cast<uint32_t>(i), parts); });
+  for (const auto& tracer : tracers) seconds_before = std::max(seconds_before, tracer->photon_seconds());
+  const Timer learning;
+  for (uint32_t i = 1; i < parts; ++i) tracers[0]->add_photons(*tracers[i]);
+  guided = tracers[0]->learn_guide();
+  for (uint32_t i = 1; guided && i < parts; ++i) tracers[i]->copy_guide(*tracers[0]);
+  seconds_before += learning.seconds();
+}
+
+template <class Body>
+void Renderer::Impl::trace_waves(const Body& body) {
+  ended = false;
+  std::vector<RenderStatistics> counts(tracers.size());
+  const auto trace = [&](size_t i) {
+    std::unique_lock lock(mutex);
+    try {
+      body(*tracers[i], counts[i], lock);
+    } catch (...) {
+      if (!lock.owns_lock()) lock.lock();
+      ended = true;
+      pass_added.notify_all();
+      throw;
+    }
+  };
+  run_side_by_side(tracers.size(), trace);
+  for (const RenderStatistics& c : counts) {
+    statistics.closest_rays += c.closest_rays;
+    statistics.shadow_rays += c.shadow_rays;
+    statistics.nonfinite += c.nonfinite;
+    statistics.overflow += c.overflow;
+  }
 }
 
 uint64_t Renderer::Impl::paths_of(const FilmBuffer& film) {
@@ -160,47 +286,93 @@ bool Renderer::Impl::is_pilot_enough(const FilmBuffer& film) const {
           (options.error_limit > 0 && progress.relative_error <= 2 * options.error_limit));
 }
 
-bool Renderer::Impl::add_passes(FilmBuffer& film, PassSums& sums) {
+bool Renderer::Impl::add_passes(FilmBuffer& film) {
   if (!film.sampling_density().empty()) return true;
-  const uint32_t all_pixels = params.tile_count * kTilePixels;
-  const uint64_t first_block = options.first_sample / kBlockSamples;
   const uint64_t wanted = options.adaptive ? pilot_samples(options.samples) : options.samples;
   if (film.samples() >= wanted) return true;
-  const uint64_t end_sample = options.first_sample + wanted;
+  const bool many = tracers.size() > 1;
+  const uint32_t all_pixels = params.tile_count * kTilePixels, most_blocks = tracers[0]->most_blocks();
+  const uint64_t first_block = options.first_sample / kBlockSamples, end_sample = options.first_sample + wanted;
   const uint64_t end_block = (end_sample + kBlockSamples - 1) / kBlockSamples;
-  for (uint64_t block = first_block + film.samples() / kBlockSamples; block < end_block;) {
-    // One pass: a few blocks of samples for all pixels.
+  uint64_t next_block = first_block + film.samples() / kBlockSamples;
+  bool goes_on = true;      // after the passes
+  std::deque<Pass> passes;  // that wait for waves, or for passes before them
+  bool adding = false;      // some thread adds passes to the film
+
+  const auto begin_pass = [&] {
     WaveParams wave{};
-    wave.first_block = static_cast<uint32_t>(block);
-    wave.block_count = static_cast<uint32_t>(std::min<uint64_t>(tracer.most_blocks(), end_block - block));
+    wave.first_block = static_cast<uint32_t>(next_block);
+    wave.block_count = static_cast<uint32_t>(std::min<uint64_t>(most_blocks, end_block - next_block));
     // A pilot that time or error end is doubled from pass to pass.
     if (options.adaptive)
-      wave.block_count = std::min(wave.block_count, std::max(static_cast<uint32_t>(film.blocks()), kLeastPilotBlocks));
-    const auto goes_on = [&](uint32_t pixels_done) {
-      const double done = static_cast<double>(pixels_done) / all_pixels * static_cast<double>(film.pixels());
-      return report(film, static_cast<uint64_t>(done * wave.block_count * kBlockSamples));
-    };
-    bool stop = false;
-    for (uint32_t pixel = 0; pixel < all_pixels && !stop; pixel += wave.pixel_count) {
-      wave.first_pixel = pixel;
-      wave.pixel_count = std::min(tracer.pixels_per_wave(), all_pixels - pixel);
-      if (options.adaptive) tracer.list_pixels(consecutive_pixels(wave));
-      if (!tracer.trace(wave, [&] { return goes_on(pixel); }, statistics)) return false;
-      sums.take(wave, tracer.film(), tracer.aovs());
-      stop = !goes_on(pixel + wave.pixel_count);
-      if (stop && pixel + wave.pixel_count < all_pixels) return false;
-    }
-
-    // Add the pass to the film.
-    const uint64_t first = block * kBlockSamples, n = wave.block_count * kBlockSamples;
+      wave.block_count =
+          std::min(wave.block_count, std::max(static_cast<uint32_t>(next_block - first_block), kLeastPilotBlocks));
+    const uint64_t first = next_block * kBlockSamples, n = wave.block_count * kBlockSamples;
     const SampleRange samples{first, std::min<uint64_t>(n, end_sample - first)};
-    sums.add_to(film, samples.count);
-    film.finish_blocks(samples, wave.block_count);
-    block += wave.block_count;
-    if (!within_limits(film) || stop) return false;
-    if (is_pilot_enough(film)) break;
-  }
-  return true;
+    passes.push_back({wave, samples, PassSums(params, most_blocks, scene, many)});
+    next_block += wave.block_count;
+  };
+  const auto end = [&](bool with) {
+    goes_on = goes_on && with;
+    ended = true;
+    pass_added.notify_all();
+  };
+  const auto tell = [&] {
+    double done = 0;
+    for (const Pass& pass : passes)
+      done += static_cast<double>(pass.finished_pixels) / all_pixels * static_cast<double>(film.pixels()) *
+              pass.wave.block_count * kBlockSamples;
+    if (!ended && !report(film, static_cast<uint64_t>(done))) end(false);
+    return !ended;
+  };
+  const auto add_finished = [&](std::unique_lock<std::mutex>& lock) {
+    if (adding) return;
+    adding = true;
+    while (!ended && !passes.empty() && passes.front().finished_pixels == all_pixels) {
+      const Pass& pass = passes.front();
+      lock.unlock();
+      pass.sums.add_to(film, pass.samples.count);
+      lock.lock();
+      film.finish_blocks(pass.samples, pass.wave.block_count);
+      passes.pop_front();
+      pass_added.notify_all();
+      if (!within_limits(film)) end(false);
+      if (is_pilot_enough(film)) end(true);
+    }
+    adding = false;
+  };
+
+  trace_waves([&](WaveTracer& tracer, RenderStatistics& counts, std::unique_lock<std::mutex>& lock) {
+    while (!ended) {
+      if (passes.empty() || passes.back().begun_pixels == all_pixels) {
+        if (next_block >= end_block) return;
+        if (passes.size() > tracers.size()) {
+          pass_added.wait(lock);
+          continue;
+        }
+        begin_pass();
+      }
+      Pass& pass = passes.back();  // stays where it is while others come and go
+      WaveParams wave = pass.wave;
+      wave.first_pixel = pass.begun_pixels;
+      wave.pixel_count = std::min(tracer.pixels_per_wave(), all_pixels - wave.first_pixel);
+      pass.begun_pixels += wave.pixel_count;
+      lock.unlock();
+      if (options.adaptive) tracer.list_pixels(consecutive_pixels(wave));
+      const auto while_tracing = [&] {
+        const std::lock_guard telling(mutex);
+        return tell();
+      };
+      const bool traced = tracer.trace(wave, while_tracing, counts);
+      if (traced) pass.sums.take(wave, tracer.film(), tracer.aovs());
+      lock.lock();
+      if (!traced || ended) return;
+      pass.finished_pixels += wave.pixel_count;
+      add_finished(lock);
+      tell();
+    }
+  });
+  return goes_on;
 }
 
 // Mean samples after the next pass of adaptive sampling: doubled, unless a limit comes before.
@@ -211,13 +383,16 @@ double Renderer::Impl::next_samples(double samples) const {
   return samples * std::max(factor, 1.05);
 }
 
-void Renderer::Impl::add_where_noisy(FilmBuffer& film, const PassSums& sums) {
+void Renderer::Impl::add_where_noisy(FilmBuffer& film) {
   if (film.sampling_density().empty()) film.set_sampling_density(sampling_density(film));
   const auto first_block = static_cast<uint32_t>(options.first_sample / kBlockSamples);
   const auto most = static_cast<double>(options.samples);
+  const WaveTracer& first_tracer = *tracers[0];
   // Many blocks a lane even out the lengths of paths, few follow the density.
-  const uint64_t few = tracer.follows_whole_paths() ? std::min<uint64_t>(film.blocks() / 2, tracer.most_blocks()) : 1;
+  const uint64_t few =
+      first_tracer.follows_whole_paths() ? std::min<uint64_t>(film.blocks() / 2, first_tracer.most_blocks()) : 1;
   const auto chunk = static_cast<uint32_t>(std::bit_floor(few));
+  const PassSums sums(params, first_tracer.most_blocks(), scene);
   std::vector<glm::uvec2> listed;
   for (double samples = film.mean_samples(), last = 0; last < most; last = samples) {
     samples = std::min(next_samples(samples), most);
@@ -231,30 +406,44 @@ void Renderer::Impl::add_where_noisy(FilmBuffer& film, const PassSums& sums) {
         listed.emplace_back(tile_pixel, first_block + b);
     }
 
-    WaveParams wave{};
-    wave.block_count = chunk;
-    for (size_t first = 0; first < listed.size(); first += wave.pixel_count) {
-      const size_t rows = size_t{tracer.pixels_per_wave()} * tracer.most_blocks() / chunk;
-      wave.pixel_count = static_cast<uint32_t>(std::min(rows, listed.size() - first));
-      const std::span<const glm::uvec2> of_wave = std::span(listed).subspan(first, wave.pixel_count);
-      tracer.list_pixels(of_wave);
-      if (!tracer.trace(wave, [&] { return report(film, 0); }, statistics)) return;
-      sums.add_listed_to(film, wave, of_wave, tracer.film(), tracer.aovs());
-      if (!report(film, 0)) return;
-      if (options.time_limit > 0 && seconds() >= options.time_limit) return;
-    }
-    if (!within_limits(film)) return;
+    std::span<const glm::uvec2> rest = listed;
+    const auto tell = [&] {
+      ended = ended || !report(film, 0);
+      return !ended;
+    };
+    trace_waves([&](WaveTracer& tracer, RenderStatistics& counts, std::unique_lock<std::mutex>& lock) {
+      while (!ended && !rest.empty()) {
+        const size_t rows = size_t{tracer.pixels_per_wave()} * tracer.most_blocks() / chunk;
+        const std::span<const glm::uvec2> of_wave = rest.first(whole_pixels(rest, rows));
+        rest = rest.subspan(of_wave.size());
+        WaveParams wave{};
+        wave.block_count = chunk;
+        wave.pixel_count = static_cast<uint32_t>(of_wave.size());
+        lock.unlock();
+        tracer.list_pixels(of_wave);
+        const auto while_tracing = [&] {
+          const std::lock_guard telling(mutex);
+          return tell();
+        };
+        const bool traced = tracer.trace(wave, while_tracing, counts);
+        lock.lock();
+        if (!traced || ended) return;
+        sums.add_listed_to(film, wave, of_wave, tracer.film(), tracer.aovs());
+        ended = !tell() || (options.time_limit > 0 && seconds() >= options.time_limit);
+      }
+    });
+    if (ended || !within_limits(film)) return;
   }
 }
 
 const RenderStatistics& Renderer::statistics() const { return impl_->statistics; }
-std::vector<std::string> Renderer::stages_run() const { return impl_->tracer.kernels().run; }
-std::vector<std::string> Renderer::stages_skipped() const { return impl_->tracer.kernels().skipped; }
+std::vector<std::string> Renderer::stages_run() const { return impl_->tracers[0]->kernels().run; }
+std::vector<std::string> Renderer::stages_skipped() const { return impl_->tracers[0]->kernels().skipped; }
 
 MemoryPlan Renderer::plan_memory(const vulkan::DeviceInfo& device, const PackedScene& scene,
-                                 const RenderOptions& options) {
+                                 const RenderOptions& options, uint32_t devices) {
   MemoryPlan plan;
-  const WavePlan waves(scene, with_defaults(options, scene, device));
+  const WavePlan waves(scene, with_defaults(options, scene, device, devices));
   gpu::RenderParams params = scene.params;
   params.capacity = waves.capacity;
   for (const BufferPlan& p : plan_buffers(scene, params, waves, options.adaptive)) {

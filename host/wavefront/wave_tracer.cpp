@@ -1,6 +1,7 @@
 #include "wavefront/wave_tracer.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 
 #include <fmt/format.h>
@@ -78,8 +79,8 @@ WavePlan::WavePlan(const PackedScene& scene, const RenderOptions& options)
 }
 
 WaveTracer::WaveTracer(vulkan::Device& device, const PackedScene& scene, const RenderOptions& options)
-    : device_(device), scene_(scene), features_(scene.features), plan_(scene, options), params_(scene.params),
-      bounces_per_submit_(kBouncesPerSubmit), pixels_per_wave_(plan_.pixels), commands_(device) {
+    : device_(device), scene_(scene), features_(scene.features), options_(options), plan_(scene, options),
+      params_(scene.params), bounces_per_submit_(kBouncesPerSubmit), pixels_per_wave_(plan_.pixels), commands_(device) {
   if (plan_.baked) pixels_per_wave_ = std::min(plan_.pixels, kFirstFusedPaths / (plan_.blocks * kBlockSamples));
   params_.capacity = plan_.capacity;
   params_.seed = options.seed;
@@ -92,19 +93,26 @@ WaveTracer::WaveTracer(vulkan::Device& device, const PackedScene& scene, const R
   upload_seconds_ = upload_timer.seconds();
 
   const Timer compile_timer;
-  // Drivers compile a kernel when it is first dispatched: that goes on while the next is made.
-  const KernelSource source{device_, *table_, features_, options, params_.end_sample,
-                            [this](const vulkan::Kernel& kernel) { touch(kernel); }};
-  kernels_ = plan_.baked ? build_fused_kernel(source, *plan_.baked)
-                         : build_stages(source, plan_.walls, plan_.may_guide);
+  kernels_ = plan_.baked ? build_fused_kernel(kernel_source(), *plan_.baked)
+                         : build_stages(kernel_source(), plan_.walls, plan_.may_guide);
+  compile_seconds_ = compile_timer.seconds();
+}
+
+// Drivers compile a kernel when it is first dispatched: that goes on while the next is made.
+KernelSource WaveTracer::kernel_source() {
+  const auto made = [this](const vulkan::Kernel& kernel) { touch(kernel); };
+  return {device_, *table_, features_, options_, params_.end_sample, made};
+}
+
+void WaveTracer::build_surface_kernels(bool guided) {
+  const Timer timer;
   if (plan_.may_guide) {
-    const bool guided = learn_guide(source);
     if (!guided) kernels_.skipped.push_back("guide");
-    build_surface_kernels(source, guided, kernels_);
+    tachylite::build_surface_kernels(kernel_source(), guided, kernels_);
   }
   commands_.submit_and_wait();
-  commands_.set_timing(options.timing);
-  compile_seconds_ = compile_timer.seconds() - guide_seconds_;
+  commands_.set_timing(options_.timing);
+  compile_seconds_ += timer.seconds();
 }
 
 void WaveTracer::upload(const RenderOptions& options) {
@@ -196,8 +204,9 @@ void WaveTracer::record_bounce(WaveParams& wave) {
   dispatch_queue(k.intersect_shadow, gpu::kDispatchShadow, wave);
 }
 
-bool WaveTracer::learn_guide(const KernelSource& source) {
-  const PhotonKernels photon_kernels = build_photon_kernels(source);
+void WaveTracer::trace_photons(uint32_t part, uint32_t parts) {
+  const Timer compile_timer;
+  const PhotonKernels photon_kernels = build_photon_kernels(kernel_source());
   kernels_.run.insert(kernels_.run.end(), photon_kernels.names.begin(), photon_kernels.names.end());
   // On surfaces that are not guided photons scatter as paths do; their shadow rays are not traced.
   const auto scatter = [&](size_t c) -> const Kernels::Pointer& {
@@ -205,16 +214,19 @@ bool WaveTracer::learn_guide(const KernelSource& source) {
   };
   const size_t classes = kernels_.shade_surface.size();
   commands_.submit_and_wait();
+  compile_seconds_ += compile_timer.seconds();
 
   const Timer timer;
-  commands_.set_timing(source.options.timing);
+  commands_.set_timing(options_.timing);
   commands_.fill(*photons_, 0);
   WaveParams wave{};
   wave.photons = 1;
   wave.block_count = 1;
-  const uint32_t all = photon_count(params_) / kBlockSamples;  // as samples of so many pixels
-  for (; wave.first_pixel < all; wave.first_pixel += wave.pixel_count) {
-    wave.pixel_count = std::min(plan_.capacity / kBlockSamples, all - wave.first_pixel);
+  const uint64_t all = photon_count(params_) / kBlockSamples;  // as samples of so many pixels
+  const auto begin_of = [&](uint32_t p) { return static_cast<uint32_t>(all * p / parts); };
+  const uint32_t end_pixel = begin_of(part + 1);
+  for (wave.first_pixel = begin_of(part); wave.first_pixel < end_pixel; wave.first_pixel += wave.pixel_count) {
+    wave.pixel_count = std::min(plan_.capacity / kBlockSamples, end_pixel - wave.first_pixel);
     if (pixel_list_) list_pixels(consecutive_pixels(wave));
     begin_paths(photon_kernels.init_from_lights, wave);
     for (const uint64_t end = std::min<uint64_t>(last_bounce(), kPhotonBounces); wave.bounce < end;) {
@@ -228,14 +240,30 @@ bool WaveTracer::learn_guide(const KernelSource& source) {
     commands_.submit_and_wait();
   }
   commands_.set_timing(false);
-  const auto* words = static_cast<const uint32_t*>(counters_->mapped());
-  const bool guided = photons_->read_all<uint32_t>([&](std::span<const uint32_t> flux) {
-    if (source.options.guiding != Guiding::kOn && !guide_pays(flux, words[gpu::kCounterCaustics])) return false;
+  caustics_ = static_cast<const uint32_t*>(counters_->mapped())[gpu::kCounterCaustics];
+  photon_seconds_ = timer.seconds();
+}
+
+void WaveTracer::add_photons(const WaveTracer& other) {
+  std::vector<uint32_t> sum = photons_->download_all<uint32_t>();
+  other.photons_->read_all<uint32_t>([&](std::span<const uint32_t> more) {
+    std::transform(sum.begin(), sum.end(), more.begin(), sum.begin(), std::plus());
+  });
+  photons_->upload(sum.data(), sum.size() * sizeof(uint32_t));
+  caustics_ += other.caustics_;
+}
+
+bool WaveTracer::learn_guide() {
+  return photons_->read_all<uint32_t>([&](std::span<const uint32_t> flux) {
+    if (options_.guiding != Guiding::kOn && !guide_pays(flux, caustics_)) return false;
     guide_->write_all<glm::uvec2>([&](std::span<glm::uvec2> guide) { build_guide(flux, features_.focusers, guide); });
     return true;
   });
-  guide_seconds_ = timer.seconds();
-  return guided;
+}
+
+void WaveTracer::copy_guide(const WaveTracer& other) {
+  other.guide_->read_all<glm::uvec2>(
+      [&](std::span<const glm::uvec2> guide) { guide_->upload(guide.data(), guide.size_bytes()); });
 }
 
 void WaveTracer::list_pixels(std::span<const glm::uvec2> listed) {

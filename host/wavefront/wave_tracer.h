@@ -33,10 +33,22 @@ struct WavePlan {
 std::vector<glm::uvec2> consecutive_pixels(const gpu::WaveParams& wave);
 
 /// Traces waves of paths (shared/render_params.h): the scene's buffers on the device, its kernels, and the loop over
-/// bounces.
+/// bounces. `scene` and `options` must outlive it.
 class WaveTracer {
  public:
+  /// Before the first wave build_surface_kernels() must be called.
   WaveTracer(vulkan::Device& device, const PackedScene& scene, const RenderOptions& options);
+
+  /// Where photons decide whether directions are guided: traces `part` of `parts` equal parts of them. Then one tracer
+  /// adds those of all others to its own, learns the guide, or nothing where it would not pay (false), and the others
+  /// copy it.
+  bool may_guide() const { return plan_.may_guide; }
+  void trace_photons(uint32_t part, uint32_t parts);
+  void add_photons(const WaveTracer& other);
+  bool learn_guide();
+  void copy_guide(const WaveTracer& other);
+  /// The kernels that wait for the photons' word.
+  void build_surface_kernels(bool guided);
 
   const gpu::RenderParams& params() const { return params_; }
   /// Pixels of the next wave at most: no submission is to take long.
@@ -57,14 +69,13 @@ class WaveTracer {
   const Kernels& kernels() const { return kernels_; }
   const std::map<std::string, vulkan::KernelTime>& kernel_times() const { return commands_.kernel_times(); }
   double upload_seconds() const { return upload_seconds_; }
-  double guide_seconds() const { return guide_seconds_; }  // of photons, and of building the guide
+  double photon_seconds() const { return photon_seconds_; }
   double compile_seconds() const { return compile_seconds_; }
 
  private:
   void upload(const RenderOptions& options);
   void touch(const vulkan::Kernel& kernel);
-  /// Traces photons; the guide, or nothing where it would not pay.
-  bool learn_guide(const KernelSource& source);
+  KernelSource kernel_source();
   void dispatch_queue(const Kernels::Pointer& kernel, uint32_t dispatch, const gpu::WaveParams& wave);
   void dispatch_lanes(const Kernels::Pointer& kernel, uint32_t lanes, const gpu::WaveParams& wave);
   void prepare(uint32_t mode, gpu::WaveParams& wave);
@@ -76,6 +87,7 @@ class WaveTracer {
   vulkan::Device& device_;
   const PackedScene& scene_;
   const FeatureSet& features_;
+  const RenderOptions& options_;
   WavePlan plan_;
   gpu::RenderParams params_;
   uint32_t bounces_per_submit_;
@@ -90,7 +102,8 @@ class WaveTracer {
   std::unique_ptr<vulkan::BindingTable> table_;
   Kernels kernels_;
   vulkan::Commands commands_;
-  double upload_seconds_ = 0, guide_seconds_ = 0, compile_seconds_ = 0;
+  uint32_t caustics_ = 0;  // kCounterCaustics after the photons
+  double upload_seconds_ = 0, photon_seconds_ = 0, compile_seconds_ = 0;
 };
 
 }  // namespace tachylite

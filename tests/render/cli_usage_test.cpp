@@ -73,6 +73,8 @@ TEST_F(CliUsage, OptionsOfRenderAndReference) {
       {{"--error", "nan"}, "--error"},
       {{"--sampler", "halton"}, "--sampler"},
       {{"--max-paths", "0"}, "--max-paths"},
+      {{"--side-by-side", "0"}, "--side-by-side"},
+      {{"--side-by-side", "65"}, "--side-by-side"},
       {{"--max-paths", "-1"}, "--max-paths"},
       {{"--max-paths", "4000000000"}, "--max-paths"},
       {{"--threads", "-1"}, "--threads"},

@@ -121,6 +121,29 @@ TEST_F(Faults, ALostDeviceIsRetriedOnce) {
   EXPECT_EQ(files(), std::vector<std::string>{"scene.xml"});
 }
 
+// Either of two that render side by side; the other one ends, too.
+TEST_F(Faults, OneOfTwoLostDevicesIsRetried) {
+  const std::vector<std::string> options = {"--spp", "24", "--max-paths", "1024", "--side-by-side", "2", "-o", "a.exr"};
+  ASSERT_EQ(render(options).exit_code, 0);
+  const Image whole = read_exr(folder / "a.exr");
+  for (const char* fault : {"vkCreateDevice:2:-4", "vkCreateDevice:3:-4", "vkWaitForFences:2:-4",
+                            "vkWaitForFences:9:-4", "vkWaitForFences:12:-4", "vkQueueSubmit:17:-4"}) {
+    SCOPED_TRACE(fault);
+    std::filesystem::remove(folder / "a.exr");
+    const ProgramResult result = render(options, fault);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("VK_ERROR_DEVICE_LOST"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("once more"), std::string::npos) << result.err;
+    const Image image = read_exr(folder / "a.exr");
+    EXPECT_EQ(image.channels, whole.channels);
+    EXPECT_EQ(image.words, whole.words);
+  }
+  std::filesystem::remove(folder / "a.exr");
+  const ProgramResult result = render(options, "vkWaitForFences:5:-4:1000");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(files(), std::vector<std::string>{"scene.xml"});
+}
+
 // By the reference, which writes as the device's render does: a limit on the process's files also hits Mesa 25.0.7, whose
 // memory is a file, and which then dies of SIGBUS.
 TEST_F(Faults, FullDisk) {

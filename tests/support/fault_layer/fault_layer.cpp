@@ -1,8 +1,9 @@
 // A Vulkan layer that makes calls fail, under a program that knows nothing of it. The environment says
 //   TACHYLITE_FAULT=CALL:N:RESULT[:TIMES]   e.g. vkQueueSubmit:3:-4
 // the N-th to (N + TIMES - 1)-th call of that name (TIMES is 1 where it lacks) return the VkResult without being made.
-// One instance with one device lives at a time; they may follow each other.
+// All instances and devices are of one driver, whose functions lie below.
 
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -13,13 +14,13 @@ namespace {
 
 VkResult fault(const char* call) {
   static const char* const plan = std::getenv("TACHYLITE_FAULT");
-  static int calls = 0;
+  static std::atomic<int> calls = 0;
   char name[64] = "";
   int first = 0, result = 0, times = 1;
   if (!plan || std::sscanf(plan, "%63[^:]:%d:%d:%d", name, &first, &result, &times) < 3) return VK_SUCCESS;
   if (std::strcmp(call, name) != 0) return VK_SUCCESS;
-  ++calls;
-  return calls >= first && calls < first + times ? static_cast<VkResult>(result) : VK_SUCCESS;
+  const int call_number = ++calls;
+  return call_number >= first && call_number < first + times ? static_cast<VkResult>(result) : VK_SUCCESS;
 }
 
 PFN_vkGetInstanceProcAddr next_instance_proc = nullptr;
