@@ -6,17 +6,19 @@
 
 #include <glm/glm.hpp>
 
+#include "base/bulk_vector.h"
+
 namespace tachylite {
 
 /// A lat-long map with the tables by which light/environment.glsl samples it.
 struct EnvironmentTables {
   uint32_t width = 0, height = 0;      // height >= 2: a single row is doubled
   uint32_t levels_x = 0, levels_y = 0;  // of the 4-ary tables of a row's texels, and of the rows
-  std::vector<glm::vec4> texels;       // radiance; density of sampling at the texel [1/sr]
+  PageVector<glm::vec4> texels;       // radiance; density of sampling at the texel [1/sr]
   /// `height` records of latitudes (sin^2(theta/2) of the row above, the row, the row below, 0; south of the equator
   /// cos^2(theta/2), and w = 1), then the table of the rows, then those of the texels of each row. A table: levels
   /// from the top down, a row has the cumulative probabilities of its first three children.
-  std::vector<glm::vec4> cdf;
+  PageVector<glm::vec4> cdf;
   double mean = 0;          // of the radiance's mean component over the sphere
   double sampled_mean = 0;  // of what the density is proportional to; 0: not worth sampling
 };

@@ -77,7 +77,7 @@ class MediumPacker {
     return std::move(media_);
   }
 
-  std::vector<float> grids;
+  PageVector<float> grids;
   uint32_t kinds = 0;
 
  private:

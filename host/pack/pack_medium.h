@@ -5,6 +5,7 @@
 
 #include <glm/glm.hpp>
 
+#include "base/bulk_vector.h"
 #include "scene/scene.h"
 
 namespace tachylite {
@@ -12,7 +13,7 @@ namespace tachylite {
 /// The media of a scene as rows of shared/medium.h.
 struct PackedMedia {
   std::vector<glm::vec4> rows;
-  std::vector<float> grids;
+  PageVector<float> grids;
   std::vector<uint32_t> index_of_medium;  // for each of Scene::media; kNoMedium: not used, or nothing there
   uint32_t kinds = 0;                     // set of kMedia... but for kMediaPaths
 

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 
 #include "accel/bvh.h"
+#include "base/bulk_vector.h"
 #include "pack/feature_set.h"
 #include "scene/aov.h"
 #include "scene/scene.h"
@@ -20,22 +21,24 @@ struct PackedScene {
   std::string sample_count_channel;  // empty: none
   Bvh8 bvh;
 
-  std::vector<glm::uvec4> triangles;   // shared/geometry.h
-  std::vector<glm::vec4> normals, curved, attributes;
-  std::vector<glm::vec2> uvs;
+  BulkVector<glm::uvec4> triangles;    // shared/geometry.h
+  BulkVector<glm::vec4> normals;
+  std::vector<glm::vec4> curved;
+  PageVector<glm::vec4> attributes;
+  PageVector<glm::vec2> uvs;
   std::vector<glm::uvec4> shapes;
   std::vector<glm::uvec4> materials;   // shared/material.h
   std::vector<glm::uvec4> textures;    // shared/texture.h
-  std::vector<uint32_t> texels8;       // RGBA8
-  std::vector<glm::uvec2> texels16;    // RGBA16F
-  std::vector<glm::vec4> texels32;     // RGBA32F
+  PageVector<uint32_t> texels8;        // RGBA8
+  PageVector<glm::uvec2> texels16;     // RGBA16F
+  PageVector<glm::vec4> texels32;      // RGBA32F
   std::vector<glm::vec4> lights;       // shared/light.h
   std::vector<glm::uvec4> light_table;
   std::vector<float> emission;
-  std::vector<glm::vec4> environment;
-  std::vector<glm::vec4> environment_cdf;
+  PageVector<glm::vec4> environment;
+  PageVector<glm::vec4> environment_cdf;
   std::vector<glm::vec4> media;
-  std::vector<float> grids;
+  PageVector<float> grids;
 
   glm::dvec3 centre{0};                // device space = world space - centre
   double bvh_seconds = 0, pack_seconds = 0;

@@ -70,14 +70,7 @@ Buffer::Buffer(Device& device, uint64_t bytes, Domain domain) : device_(&device)
   if (needed > largest)
     out_of_memory(device, needed, fmt::format("the device allows {} bytes a buffer", largest));
 
-  VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
-  create.size = needed;
-  create.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
-                 VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
-                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-  const VkResult created = vkCreateBuffer(device.handle(), &create, nullptr, &buffer_);
-  if (created != VK_SUCCESS)
-    out_of_memory(device, needed, fmt::format("vkCreateBuffer gave {}", result_name(created)));
+  create(needed, nullptr);
   try {
     VkMemoryRequirements requirements;
     vkGetBufferMemoryRequirements(device.handle(), buffer_, &requirements);
@@ -112,6 +105,46 @@ Buffer::Buffer(Device& device, uint64_t bytes, Domain domain) : device_(&device)
     destroy();
     throw;
   }
+}
+
+// vkCreateBuffer; next: of its VkBufferCreateInfo.
+void Buffer::create(uint64_t needed, const void* next) {
+  VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, next};
+  info.size = needed;
+  info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+               VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+               VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+  const VkResult created = vkCreateBuffer(device_->handle(), &info, nullptr, &buffer_);
+  if (created != VK_SUCCESS)
+    out_of_memory(*device_, needed, fmt::format("vkCreateBuffer gave {}", result_name(created)));
+}
+
+Buffer Buffer::over(Device& device, const void* memory, uint64_t bytes) {
+  CHECK(device.imports_host_memory());
+  CHECK_EQ(reinterpret_cast<uintptr_t>(memory) % kPage, 0u);
+  constexpr VkExternalMemoryHandleTypeFlagBits kHandle = VK_EXTERNAL_MEMORY_HANDLE_TYPE_HOST_ALLOCATION_BIT_EXT;
+  Buffer buffer;
+  buffer.device_ = &device;
+  buffer.bytes_ = bytes;
+  VkExternalMemoryBufferCreateInfo external{VK_STRUCTURE_TYPE_EXTERNAL_MEMORY_BUFFER_CREATE_INFO};
+  external.handleTypes = kHandle;
+  buffer.create(bytes, &external);
+  VkMemoryRequirements requirements;
+  vkGetBufferMemoryRequirements(device.handle(), buffer.buffer_, &requirements);
+  // Vulkan imports what may be written; kernels do not.
+  VkImportMemoryHostPointerInfoEXT import{VK_STRUCTURE_TYPE_IMPORT_MEMORY_HOST_POINTER_INFO_EXT};
+  import.handleType = kHandle;
+  import.pHostPointer = const_cast<void*>(memory);
+  VkMemoryHostPointerPropertiesEXT pointer{VK_STRUCTURE_TYPE_MEMORY_HOST_POINTER_PROPERTIES_EXT};
+  check(vkGetMemoryHostPointerPropertiesEXT(device.handle(), kHandle, import.pHostPointer, &pointer),
+        "vkGetMemoryHostPointerPropertiesEXT");
+  VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &import};
+  allocate.allocationSize = (bytes + kPage - 1) / kPage * kPage;
+  allocate.memoryTypeIndex = device.memory_type(requirements.memoryTypeBits & pointer.memoryTypeBits, 0, 0);
+  const VkResult result = vkAllocateMemory(device.handle(), &allocate, nullptr, &buffer.memory_);
+  if (result != VK_SUCCESS) out_of_memory(device, bytes, result_name(result));
+  check(vkBindBufferMemory(device.handle(), buffer.buffer_, buffer.memory_, 0), "vkBindBufferMemory");
+  return buffer;
 }
 
 Buffer::Buffer(Buffer&& other) noexcept {

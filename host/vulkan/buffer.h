@@ -26,6 +26,11 @@ class Buffer {
   Buffer(Device& device, std::span<const T> data) : Buffer(device, data.size_bytes()) {
     upload(data.data(), data.size_bytes());
   }
+  /// A buffer, for kernels to read, that is the host's memory, not a copy of it. `memory` begins a page of 4096 bytes,
+  /// ends one after the buffer's end or with it, and must outlive the buffer. Several devices may share it. Only where
+  /// device.imports_host_memory().
+  static Buffer over(Device& device, const void* memory, uint64_t bytes);
+  static constexpr uint64_t kPage = 4096;
   Buffer(Buffer&& other) noexcept;
   Buffer& operator=(Buffer&& other) noexcept;
   ~Buffer();
@@ -64,6 +69,7 @@ class Buffer {
   VkBufferView texel_view(VkFormat format) const;
 
  private:
+  void create(uint64_t needed, const void* next);
   void destroy();
   template <class T>
   std::span<T> mapped_values() const {

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "base/error.h"
+#include "vulkan/buffer.h"
 #include "vulkan/check.h"
 #include "vulkan/instance.h"
 
@@ -51,6 +52,25 @@ bool matches(const DeviceInfo& info, const std::string& selector) {
   };
   return std::search(info.name.begin(), info.name.end(), selector.begin(), selector.end(), equal) !=
          info.name.end();
+}
+
+/// Whether the device takes pages of the host's memory as its own.
+bool can_import_pages(VkPhysicalDevice physical) {
+  uint32_t count = 0;
+  check(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr),
+        "vkEnumerateDeviceExtensionProperties");
+  std::vector<VkExtensionProperties> extensions(count);
+  check(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data()),
+        "vkEnumerateDeviceExtensionProperties");
+  if (std::none_of(extensions.begin(), extensions.end(), [](const VkExtensionProperties& e) {
+        return std::string_view(e.extensionName) == VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME;
+      }))
+    return false;
+  VkPhysicalDeviceExternalMemoryHostPropertiesEXT host{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTERNAL_MEMORY_HOST_PROPERTIES_EXT};
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &host, {}};
+  vkGetPhysicalDeviceProperties2(physical, &properties);
+  return host.minImportedHostPointerAlignment <= Buffer::kPage;
 }
 
 /// The best device that the selector allows.
@@ -119,6 +139,12 @@ Device::Device(const DeviceOptions& options)
     VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features};
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queue;
+    const char* const import = VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME;
+    imports_host_memory_ = is_cpu() && can_import_pages(physical_);
+    if (imports_host_memory_) {
+      create.enabledExtensionCount = 1;
+      create.ppEnabledExtensionNames = &import;
+    }
     check(vkCreateDevice(physical_, &create, nullptr, &device_), "vkCreateDevice");
     vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
   } catch (...) {

@@ -50,6 +50,8 @@ class Device {
 
   const DeviceInfo& info() const { return info_; }
   bool is_cpu() const { return info_.type == VK_PHYSICAL_DEVICE_TYPE_CPU; }
+  /// Whether its memory is the host's, which buffers may share (Buffer::over).
+  bool imports_host_memory() const { return imports_host_memory_; }
   /// Validation messages (warnings and errors) seen so far on this device.
   std::vector<std::string> validation_messages() const;
 
@@ -61,7 +63,7 @@ class Device {
   uint32_t memory_type(uint32_t allowed, VkMemoryPropertyFlags required,
                        VkMemoryPropertyFlags preferred) const;
   KeptPipelines& kept_pipelines() { return kept_pipelines_; }
-  uint64_t allocated_bytes() const { return allocated_bytes_; }  // device memory held now through Buffer
+  uint64_t allocated_bytes() const { return allocated_bytes_; }  // held now through Buffer, but for what is the host's
 
  private:
   friend class Buffer;
@@ -76,6 +78,7 @@ class Device {
   VkQueue queue_ = VK_NULL_HANDLE;
   uint32_t queue_family_ = 0;
   uint64_t allocated_bytes_ = 0;
+  bool imports_host_memory_ = false;
   KeptPipelines kept_pipelines_;
   std::unique_ptr<Messages> messages_;
 };

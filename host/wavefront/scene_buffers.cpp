@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "base/bulk_vector.h"
 #include "shared/bindings.h"
 #include "shared/counters.h"
 #include "shared/guide.h"
@@ -16,8 +17,13 @@ using vulkan::BindingKind;
 Binding texel(uint32_t number, VkFormat format) { return {number, BindingKind::kTexel, nullptr, format}; }
 Binding storage(uint32_t number) { return {number, BindingKind::kStorage, nullptr, VK_FORMAT_UNDEFINED}; }
 
-BufferPlan scene_buffer(const char* name, uint32_t binding, VkFormat format, const auto& data) {
-  return {name, {texel(binding, format)}, data.data(), data.size() * sizeof(data[0])};
+// needed: else there is no buffer.
+BufferPlan scene_buffer(const char* name, std::vector<Binding> bindings, const auto& data, bool needed = true) {
+  const uint64_t bytes = needed ? data.size() * sizeof(data[0]) : 0;
+  return {name, std::move(bindings), data.data(), bytes, vulkan::Domain::kDevice, owns_pages(data)};
+}
+BufferPlan scene_buffer(const char* name, uint32_t binding, VkFormat format, const auto& data, bool needed = true) {
+  return scene_buffer(name, {texel(binding, format)}, data, needed);
 }
 
 }  // namespace
@@ -34,21 +40,18 @@ std::vector<BufferPlan> plan_buffers(const PackedScene& s, const gpu::RenderPara
   const uint64_t path_bytes = slots * sizeof(glm::vec4) * (media ? gpu::kPathRowsMedia : gpu::kPathRowsBase);
   const uint64_t queue_bytes = slots * sizeof(uint32_t) * (gpu::kQueueSurface + s.features.classes.size() + (s.media.empty() ? 0 : 1));
   const uint64_t shadow_bytes = lit ? slots * sizeof(glm::vec4) * (media ? gpu::kShadowRowsMedia : gpu::kShadowRows) : 0;
-  static const std::vector<float> no_floats;
-  const auto staged = [&](const auto& rows) { return baked ? decltype(std::span(rows))() : std::span(rows); };
+  const bool stages = !baked;
 
   return {
       {"parameters", {{gpu::kBindParams, BindingKind::kUniform}}, &params, sizeof(params)},
-      scene_buffer("tree nodes", gpu::kBindBvhNodes, kUint4, staged(s.bvh.nodes)),
-      {"tree leaves",
-       {texel(gpu::kBindBvhLeaves, kFloat4), texel(gpu::kBindLeafInfo, kUint4)},
-       s.bvh.leaves.data(),
-       staged(s.bvh.leaves).size_bytes()},
-      scene_buffer("triangles", gpu::kBindTriangles, kUint4, staged(s.triangles)),
+      scene_buffer("tree nodes", gpu::kBindBvhNodes, kUint4, s.bvh.nodes, stages),
+      scene_buffer("tree leaves", {texel(gpu::kBindBvhLeaves, kFloat4), texel(gpu::kBindLeafInfo, kUint4)},
+                   s.bvh.leaves, stages),
+      scene_buffer("triangles", gpu::kBindTriangles, kUint4, s.triangles, stages),
       scene_buffer("normals", gpu::kBindNormals, kFloat4, s.normals),
       scene_buffer("texture coordinates", gpu::kBindUvs, VK_FORMAT_R32G32_SFLOAT, s.uvs),
-      scene_buffer("curved shapes", gpu::kBindCurved, kFloat4, staged(s.curved)),
-      scene_buffer("shapes", gpu::kBindShapes, kUint4, staged(s.shapes)),
+      scene_buffer("curved shapes", gpu::kBindCurved, kFloat4, s.curved, stages),
+      scene_buffer("shapes", gpu::kBindShapes, kUint4, s.shapes, stages),
       scene_buffer("baked primitives", gpu::kBindBaked, kFloat4, baked ? baked->rows : plan.walls.rows),
       scene_buffer("mesh attributes", gpu::kBindAttributes, kFloat4, s.attributes),
       scene_buffer("materials", gpu::kBindMaterials, kUint4, s.materials),
@@ -74,7 +77,7 @@ std::vector<BufferPlan> plan_buffers(const PackedScene& s, const gpu::RenderPara
        vulkan::Domain::kHost},
       {"pixel list", {texel(gpu::kBindPixelList, VK_FORMAT_R32G32_UINT)}, nullptr,
        listed ? film_rows * sizeof(glm::uvec2) : 0, vulkan::Domain::kHost},
-      scene_buffer("emission", gpu::kBindEmission, VK_FORMAT_R32_SFLOAT, plan.may_guide ? s.emission : no_floats),
+      scene_buffer("emission", gpu::kBindEmission, VK_FORMAT_R32_SFLOAT, s.emission, plan.may_guide),
       {"photons", {storage(gpu::kBindPhotons)}, nullptr, gpu::kGuideCells * cell_bins * sizeof(uint32_t)},
       {"guide", {texel(gpu::kBindGuide, VK_FORMAT_R32G32_UINT)}, nullptr,
        (gpu::kGuideCells + 1) * cell_bins * sizeof(glm::uvec2)},

@@ -15,6 +15,7 @@ struct BufferPlan {
   const void* data = nullptr;             // uploaded when the buffer is made; null: left as it is
   uint64_t bytes = 0;                     // 0: the scene does not need it
   vulkan::Domain domain = vulkan::Domain::kDevice;
+  bool pages = false;                     // `data` lies alone in its pages: a buffer may be over it
 };
 
 /// The buffers that a scene needs, each once, before anything is allocated. `listed`: the wave's pixels stand in a list.

@@ -122,8 +122,10 @@ void WaveTracer::upload(const RenderOptions& options) {
   for (BufferPlan& p : plan) {
     const Buffer* made = nullptr;
     if (p.bytes > 0) {
-      Buffer& buffer = buffers_.emplace_back(device_, p.bytes, p.domain);
-      if (p.data) buffer.upload(p.data, p.bytes);
+      const bool shared = p.pages && device_.imports_host_memory();
+      Buffer& buffer = buffers_.emplace_back(shared ? Buffer::over(device_, p.data, p.bytes)
+                                                    : Buffer(device_, p.bytes, p.domain));
+      if (p.data && !shared) buffer.upload(p.data, p.bytes);
       made = &buffer;
       if (p.bindings[0].number == gpu::kBindCounters) counters_ = &buffer;
       if (p.bindings[0].number == gpu::kBindFilm) film_block_ = &buffer;

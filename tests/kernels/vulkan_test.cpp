@@ -1,11 +1,14 @@
 // The Vulkan layer itself: bindings, constants, barriers, indirect dispatch, timestamps, errors.
 
+#include <algorithm>
 #include <cstring>
 #include <numeric>
 
+#include "base/bulk_vector.h"
 #include "base/error.h"
 #include "support/device_test.h"
 #include "test_kernel_spirv.h"
+#include "vulkan/buffer.h"
 #include "vulkan/check.h"
 
 namespace tachylite::vulkan {
@@ -139,6 +142,27 @@ TEST_F(Vulkan, BuffersKeepBytesAndCountThem) {
     EXPECT_TRUE(empty.download_all<float>().empty());
   }
   EXPECT_EQ(device().allocated_bytes(), before);
+}
+
+// Of two devices over the same memory, which both see what the host writes there.
+TEST_F(Vulkan, BuffersOverTheHostsMemory) {
+  if (!device().imports_host_memory()) GTEST_SKIP() << "this device does not";
+  BulkVector<uint32_t> values((1 << 20) + 3);
+  ASSERT_TRUE(owns_pages(values));
+  std::iota(values.begin(), values.end(), 7u);
+  vulkan::Device other({.validation = true});
+  const uint64_t before = device().allocated_bytes();
+  for (vulkan::Device* on : {&device(), &other}) {
+    Buffer buffer = Buffer::over(*on, values.data(), values.size() * sizeof(uint32_t));
+    EXPECT_EQ(buffer.size(), values.size() * sizeof(uint32_t));
+    EXPECT_EQ(device().allocated_bytes(), before);
+    EXPECT_TRUE(std::ranges::equal(buffer.download_all<uint32_t>(), values));
+    values[5] += 100;
+    values.back() = 1;
+    const Buffer moved = std::move(buffer);
+    EXPECT_TRUE(std::ranges::equal(moved.download_all<uint32_t>(), values));
+  }
+  for (const std::string& message : other.validation_messages()) ADD_FAILURE() << message;
 }
 
 template <class Error, class Action>

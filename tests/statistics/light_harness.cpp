@@ -18,8 +18,8 @@ struct Push {
 };
 
 /// Texel buffers must not be empty.
-template <class T>
-std::span<const T> at_least_one(std::vector<T>& values) {
+template <class T, class Allocator>
+std::span<const T> at_least_one(std::vector<T, Allocator>& values) {
   if (values.empty()) values.resize(1);
   return values;
 }

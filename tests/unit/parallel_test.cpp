@@ -2,8 +2,13 @@
 
 #include "base/parallel.h"
 
+#include <algorithm>
+#include <atomic>
+#include <barrier>
 #include <functional>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -69,6 +74,40 @@ TEST_P(ForThreads, ScanKeepsTheOrder) {
 INSTANTIATE_TEST_SUITE_P(Parallel, ForThreads, ::testing::Values(1, 2, 5));
 
 // Across the size from which memory is mapped.
+TEST(BulkVector, LargeOnesOwnTheirPages) {
+  EXPECT_FALSE(owns_pages(BulkVector<char>(1000)));
+  EXPECT_FALSE(owns_pages(std::vector<char>(size_t{4} << 20)));
+  const PageVector<char> zeros(size_t{3} << 20);
+  ASSERT_TRUE(owns_pages(zeros));
+  EXPECT_EQ(reinterpret_cast<uintptr_t>(zeros.data()) % 4096, 0u);
+  EXPECT_EQ(std::ranges::count(zeros, 0), 3 << 20);
+}
+
+TEST(RunSideBySide, RunsAllAtTheSameTime) {
+  std::barrier all(5);  // would wait for ever in turn
+  std::vector<int> done(5);
+  run_side_by_side(5, [&](size_t i) {
+    all.arrive_and_wait();
+    done[i] = static_cast<int>(i);
+  });
+  EXPECT_EQ(done, (std::vector<int>{0, 1, 2, 3, 4}));
+  run_side_by_side(0, [](size_t) { FAIL(); });
+}
+
+TEST(RunSideBySide, RethrowsTheFirstAfterAllHaveEnded) {
+  std::atomic<int> ended = 0;
+  try {
+    run_side_by_side(4, [&](size_t i) {
+      ++ended;
+      if (i >= 1) throw std::runtime_error(std::to_string(i));
+    });
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "1");
+  }
+  EXPECT_EQ(ended, 4);
+}
+
 TEST(BulkVector, KeepsItsElementsAsItGrows) {
   BulkVector<uint64_t> items;
   for (uint64_t i = 0; i < 1 << 20; ++i) items.push_back(i);
