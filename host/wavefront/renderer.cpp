@@ -33,9 +33,11 @@ constexpr uint64_t kPathsOfCpu = 1u << 18, kPathsOfGpu = 1u << 22;
 constexpr uint64_t kShareOfMemory = 8;  // all of them take at most an eighth of a GPU's
 constexpr uint64_t kLeastOfCpus = 1u << 16;  // of each of several devices
 
-// Several devices: at most so many, each with so many paths to trace at least; renders that last longer.
-constexpr uint64_t kMostDevices = 8, kPathsWorthDevice = 1u << 21;
+// Several devices: at most so many, each with so many paths to trace at least for each kernel of a class of materials,
+// and for all others together, as each compiles them; renders that may last so long.
+constexpr uint64_t kMostDevices = 8, kPathsWorthClass = 3u << 18;
 constexpr double kSecondsWorthDevices = 10;
+constexpr uint64_t kLeastWave = 1u << 13;  // paths of their waves
 constexpr uint64_t kShareOfScene = 2;  // all devices together take at most half of the memory
 
 uint32_t default_paths(const PackedScene& scene, const vulkan::DeviceInfo& device) {
@@ -90,6 +92,7 @@ struct Renderer::Impl {
   RenderOptions options;
   std::vector<std::unique_ptr<WaveTracer>> tracers;  // one a device
   const gpu::RenderParams& params;
+  bool guided = false;
   RenderStatistics statistics;
 
   // Of the render that goes on. Several devices: what they change, and the film, belongs to who holds the mutex.
@@ -108,7 +111,7 @@ struct Renderer::Impl {
         tracers(make_tracers(devices)),
         params(tracers[0]->params()) {
     if (tracers[0]->may_guide()) learn_guide();
-    for_each_tracer([&](WaveTracer& tracer) { tracer.build_surface_kernels(guided); });
+    run_side_by_side(tracers.size(), [&](size_t i) { tracers[i]->build_surface_kernels(guided); });
     for (const auto& tracer : tracers) {
       statistics.upload_seconds = std::max(statistics.upload_seconds, tracer->upload_seconds());
       statistics.compile_seconds = std::max(statistics.compile_seconds, tracer->compile_seconds());
@@ -117,11 +120,6 @@ struct Renderer::Impl {
   }
   std::vector<std::unique_ptr<WaveTracer>> make_tracers(std::span<vulkan::Device* const> devices) const;
   void learn_guide();
-  /// body(WaveTracer&), side by side.
-  template <class Body>
-  void for_each_tracer(const Body& body) {
-    run_side_by_side(tracers.size(), [&](size_t i) { body(*tracers[i]); });
-  }
   /// body(WaveTracer&, RenderStatistics&, std::unique_lock&) side by side: takes waves until there are none or `ended`
   /// is set, and holds the lock but while it traces.
   template <class Body>
@@ -138,8 +136,6 @@ struct Renderer::Impl {
   double next_samples(double samples) const;
   double seconds() const { return seconds_before + timer.seconds(); }
   static uint64_t paths_of(const FilmBuffer& film);
-
-  bool guided = false;
 };
 
 uint32_t count_devices(const vulkan::DeviceInfo& device, const PackedScene& scene, const RenderOptions& options) {
@@ -147,7 +143,8 @@ uint32_t count_devices(const vulkan::DeviceInfo& device, const PackedScene& scen
   if (device.driver != "llvmpipe" || short_one || WavePlan(scene, options).baked) return 1;
   const uint64_t paths = uint64_t{scene.params.width} * scene.params.height * options.samples;
   const uint64_t memory = Renderer::plan_memory(device, scene, options, 2).total();
-  const uint64_t count = std::min({uint64_t{vulkan::llvmpipe_threads()}, kMostDevices, paths / kPathsWorthDevice,
+  const uint64_t least_paths = kPathsWorthClass * (1 + scene.features.classes.size());
+  const uint64_t count = std::min({uint64_t{vulkan::llvmpipe_threads()}, kMostDevices, paths / least_paths,
                                    device.device_memory / kShareOfScene / std::max(memory, uint64_t{1})});
   return static_cast<uint32_t>(std::max(count, uint64_t{1}));
 }
@@ -312,6 +309,14 @@ bool Renderer::Impl::add_passes(FilmBuffer& film) {
     passes.push_back({wave, samples, PassSums(params, most_blocks, scene, many)});
     next_block += wave.block_count;
   };
+  // Waves become smaller towards the end, so that no device waits long for the last one (Polychronopoulos and Kuck 1987,
+  // "Guided Self-Scheduling").
+  const auto share_of_rest = [&](const WaveParams& wave) {
+    const uint64_t blocks_of_pixels = uint64_t{all_pixels - wave.first_pixel} * wave.block_count +
+                                      (end_block - next_block) * all_pixels;
+    const uint64_t share = std::max(blocks_of_pixels / (2 * tracers.size()), kLeastWave / kBlockSamples);
+    return static_cast<uint32_t>(std::min<uint64_t>(share / wave.block_count + 1, all_pixels));
+  };
   const auto end = [&](bool with) {
     goes_on = goes_on && with;
     ended = true;
@@ -356,6 +361,7 @@ bool Renderer::Impl::add_passes(FilmBuffer& film) {
       WaveParams wave = pass.wave;
       wave.first_pixel = pass.begun_pixels;
       wave.pixel_count = std::min(tracer.pixels_per_wave(), all_pixels - wave.first_pixel);
+      if (many) wave.pixel_count = std::min(wave.pixel_count, share_of_rest(wave));
       pass.begun_pixels += wave.pixel_count;
       lock.unlock();
       if (options.adaptive) tracer.list_pixels(consecutive_pixels(wave));

@@ -30,22 +30,23 @@ glm::dvec3 mean(const FilmBuffer& film) {
 RayShareResult bench_ray_share(const std::string& name, int repetitions) {
   const Scene scene = diffuse_scene(make_scene(name), kMaxDepth);
   const PackedScene packed = pack_scene(scene);
-  vulkan::Device device;
+  vulkan::DevicePool pool({});
   RenderOptions options;
   options.samples = kRoomSamples;
   options.structure = KernelStructure::kStages;
+  const vulkan::DevicePool::Devices devices = pool.side_by_side(count_devices(pool.one().info(), packed, options));
   double seconds = std::numeric_limits<double>::infinity();
   RayShareResult result;
   std::vector<double> shares;
   for (int i = 0; i < repetitions; ++i) {
     options.seed = static_cast<uint32_t>(i);
     options.timing = false;
-    Renderer plain(device, packed, options);
+    Renderer plain(devices, packed, options);
     const CpuTimer timer;
     plain.render();
     seconds = std::min(seconds, timer.seconds());
     options.timing = true;
-    Renderer timed(device, packed, options);
+    Renderer timed(devices, packed, options);
     timed.render();
     double rays = 0, all = 0;
     for (const auto& [kernel, time] : timed.statistics().kernels) {

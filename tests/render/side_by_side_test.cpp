@@ -171,9 +171,9 @@ TEST_F(SideBySide, OnlyLongRendersInStagesOfLlvmpipe) {
   EXPECT_EQ(count_devices(llvmpipe, packed, long_one), 1u);
   set_threads("4");
   RenderOptions options = long_one;
-  options.samples = 1024;
+  options.samples = 768;
   EXPECT_EQ(count_devices(llvmpipe, packed, options), 2u);
-  options.samples = 512;
+  options.samples = 767;
   EXPECT_EQ(count_devices(llvmpipe, packed, options), 1u);
   options = long_one;
   options.structure = KernelStructure::kAuto;  // fits one kernel
