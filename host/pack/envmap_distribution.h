@@ -14,7 +14,7 @@ namespace tachylite {
 struct EnvironmentTables {
   uint32_t width = 0, height = 0;      // height >= 2: a single row is doubled
   uint32_t levels_x = 0, levels_y = 0;  // of the 4-ary tables of a row's texels, and of the rows
-  PageVector<glm::vec4> texels;       // radiance; density of sampling at the texel [1/sr]
+  PageVector<glm::vec4> texels;        // radiance; density of sampling at the texel [1/sr]
   /// `height` records of latitudes (sin^2(theta/2) of the row above, the row, the row below, 0; south of the equator
   /// cos^2(theta/2), and w = 1), then the table of the rows, then those of the texels of each row. A table: levels
   /// from the top down, a row has the cumulative probabilities of its first three children.

@@ -24,7 +24,7 @@ struct Geometry {
   glm::dvec3 centre{0};
   std::vector<glm::vec3> vertices;
   std::vector<glm::vec3> normals;  // zero where the shape is flat; empty if all are
-  PageVector<glm::vec2> uvs;      // zero where there are none; empty if none has
+  PageVector<glm::vec2> uvs;       // zero where there are none; empty if none has
   std::vector<glm::uvec3> triangles;
   std::vector<uint32_t> shape_of_triangle;
   std::vector<CurvedPrimitive> curved;  // object_to_world maps to device space

@@ -17,8 +17,8 @@ namespace tachylite {
 struct PackedLights {
   std::vector<glm::vec4> rows;             // kBindLights
   std::vector<glm::uvec4> table;           // kBindLightTable; a header at least, also in a scene without lights
-  PageVector<glm::vec4> environment;      // kBindEnvironment
-  PageVector<glm::vec4> environment_cdf;  // kBindEnvironmentCdf
+  PageVector<glm::vec4> environment;       // kBindEnvironment
+  PageVector<glm::vec4> environment_cdf;   // kBindEnvironmentCdf
   std::vector<uint32_t> light_of_shape;    // first light row of each shape; kNoIndex: it does not emit
   std::vector<float> emission;             // kBindEmission: for each record of an area light, the share of all their
                                            // power that it and those before it have; empty: there are none

@@ -15,10 +15,10 @@ namespace tachylite {
 /// its texels.
 struct PackedTextures {
   std::vector<glm::uvec4> rows;           // kBindTextures
-  PageVector<uint32_t> texels8;          // RGBA8
-  PageVector<glm::uvec2> texels16;       // RGBA16F
-  PageVector<glm::vec4> texels32;        // RGBA32F
-  PageVector<glm::vec4> attributes;      // kBindAttributes
+  PageVector<uint32_t> texels8;           // RGBA8
+  PageVector<glm::uvec2> texels16;        // RGBA16F
+  PageVector<glm::vec4> texels32;         // RGBA32F
+  PageVector<glm::vec4> attributes;       // kBindAttributes
   std::vector<uint32_t> row_of_texture;   // for each of Scene::textures
   uint32_t kinds = 0;                     // set of kTextures...
 };

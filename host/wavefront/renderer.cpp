@@ -5,7 +5,6 @@
 #include <cmath>
 #include <condition_variable>
 #include <deque>
-#include <limits>
 #include <mutex>
 #include <optional>
 
@@ -13,11 +12,9 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/timer.h"
-#include "shared/counters.h"
-#include "shared/path_state.h"
 #include "wavefront/adaptive_sampling.h"
 #include "wavefront/pass_sums.h"
-#include "wavefront/scene_buffers.h"
+#include "wavefront/render_plan.h"
 #include "wavefront/wave_tracer.h"
 
 namespace tachylite {
@@ -26,41 +23,8 @@ namespace {
 using gpu::kBlockSamples;
 using gpu::WaveParams;
 
+constexpr uint64_t kLeastWave = 1u << 13;  // paths, where several devices take waves
 constexpr auto kLeastPilotBlocks = static_cast<uint32_t>(kLeastPilot / gpu::kBlockSamples);
-
-// Paths in flight. More gain little: caches of a CPU hold few of them, and a GPU has no more lanes.
-constexpr uint64_t kPathsOfCpu = 1u << 18, kPathsOfGpu = 1u << 22;
-constexpr uint64_t kShareOfMemory = 8;  // all of them take at most an eighth of a GPU's
-constexpr uint64_t kLeastOfCpus = 1u << 16;  // of each of several devices
-
-// Several devices: at most so many, each with so many paths to trace at least for each kernel of a class of materials,
-// and for all others together, as each compiles them; renders that may last so long.
-constexpr uint64_t kMostDevices = 8, kPathsWorthClass = 3u << 18;
-constexpr double kSecondsWorthDevices = 10;
-constexpr uint64_t kLeastWave = 1u << 13;  // paths of their waves
-constexpr uint64_t kShareOfScene = 2;  // all devices together take at most half of the memory
-
-uint32_t default_paths(const PackedScene& scene, const vulkan::DeviceInfo& device) {
-  if (device.type == VK_PHYSICAL_DEVICE_TYPE_CPU) return kPathsOfCpu;
-  const uint64_t state = gpu::kPathRowsMedia * sizeof(glm::vec4), shadow = gpu::kShadowRowsMedia * sizeof(glm::vec4);
-  const uint64_t queues = (gpu::kQueueSurface + scene.features.classes.size() + 1) * sizeof(uint32_t);
-  const uint64_t fit = std::min({device.device_memory / kShareOfMemory / (state + shadow + queues),
-                                 device.max_storage_buffer_range / std::max(state, queues),
-                                 device.max_texel_buffer_elements * sizeof(uint32_t) / queues,
-                                 device.max_texel_buffer_elements * sizeof(glm::vec4) / state});
-  return static_cast<uint32_t>(std::clamp(fit, kPathsOfCpu, kPathsOfGpu));
-}
-
-// Of each of so many devices.
-RenderOptions with_defaults(RenderOptions options, const PackedScene& scene, const vulkan::DeviceInfo& device,
-                            uint32_t devices) {
-  options.adaptive = options.adaptive && pilot_samples(options.samples) < options.samples;
-  if (options.max_paths == 0)
-    options.max_paths = std::max(default_paths(scene, device) / devices, static_cast<uint32_t>(kLeastOfCpus));
-  else
-    options.max_paths = std::max(options.max_paths / devices, 1u);
-  return options;
-}
 
 // One pass over all pixels, a few blocks of samples of each, whose waves devices take one by one.
 struct Pass {
@@ -80,12 +44,6 @@ size_t whole_pixels(std::span<const glm::uvec2> listed, size_t rows) {
 }
 
 }  // namespace
-
-uint64_t MemoryPlan::total() const {
-  uint64_t sum = 0;
-  for (const Entry& e : buffers) sum += e.bytes;
-  return sum;
-}
 
 struct Renderer::Impl {
   const PackedScene& scene;
@@ -124,6 +82,14 @@ struct Renderer::Impl {
   /// is set, and holds the lock but while it traces.
   template <class Body>
   void trace_waves(const Body& body);
+  /// action(), for who does not hold the mutex.
+  template <class Action>
+  auto locked(const Action& action) {
+    return [&] {
+      const std::lock_guard lock(mutex);
+      return action();
+    };
+  }
 
   /// Passes over all pixels, to options.samples or the end of the pilot. False where the render is over.
   bool add_passes(FilmBuffer& film);
@@ -137,17 +103,6 @@ struct Renderer::Impl {
   double seconds() const { return seconds_before + timer.seconds(); }
   static uint64_t paths_of(const FilmBuffer& film);
 };
-
-uint32_t count_devices(const vulkan::DeviceInfo& device, const PackedScene& scene, const RenderOptions& options) {
-  const bool short_one = options.time_limit > 0 && options.time_limit < kSecondsWorthDevices;
-  if (device.driver != "llvmpipe" || short_one || WavePlan(scene, options).baked) return 1;
-  const uint64_t paths = uint64_t{scene.params.width} * scene.params.height * options.samples;
-  const uint64_t memory = Renderer::plan_memory(device, scene, options, 2).total();
-  const uint64_t least_paths = kPathsWorthClass * (1 + scene.features.classes.size());
-  const uint64_t count = std::min({uint64_t{vulkan::llvmpipe_threads()}, kMostDevices, paths / least_paths,
-                                   device.device_memory / kShareOfScene / std::max(memory, uint64_t{1})});
-  return static_cast<uint32_t>(std::max(count, uint64_t{1}));
-}
 
 Renderer::Renderer(vulkan::Device& device, const PackedScene& scene, const RenderOptions& options) : scene_(scene) {
   vulkan::Device* const only = &device;
@@ -309,8 +264,8 @@ bool Renderer::Impl::add_passes(FilmBuffer& film) {
     passes.push_back({wave, samples, PassSums(params, most_blocks, scene, many)});
     next_block += wave.block_count;
   };
-  // Waves become smaller towards the end, so that no device waits long for the last one (Polychronopoulos and Kuck 1987,
-  // "Guided Self-Scheduling").
+  // Waves become smaller towards the end, so that no device waits long for the last one (Polychronopoulos and Kuck
+  // 1987, "Guided Self-Scheduling").
   const auto share_of_rest = [&](const WaveParams& wave) {
     const uint64_t blocks_of_pixels = uint64_t{all_pixels - wave.first_pixel} * wave.block_count +
                                       (end_block - next_block) * all_pixels;
@@ -365,11 +320,7 @@ bool Renderer::Impl::add_passes(FilmBuffer& film) {
       pass.begun_pixels += wave.pixel_count;
       lock.unlock();
       if (options.adaptive) tracer.list_pixels(consecutive_pixels(wave));
-      const auto while_tracing = [&] {
-        const std::lock_guard telling(mutex);
-        return tell();
-      };
-      const bool traced = tracer.trace(wave, while_tracing, counts);
+      const bool traced = tracer.trace(wave, locked(tell), counts);
       if (traced) pass.sums.take(wave, tracer.film(), tracer.aovs());
       lock.lock();
       if (!traced || ended) return;
@@ -427,11 +378,7 @@ void Renderer::Impl::add_where_noisy(FilmBuffer& film) {
         wave.pixel_count = static_cast<uint32_t>(of_wave.size());
         lock.unlock();
         tracer.list_pixels(of_wave);
-        const auto while_tracing = [&] {
-          const std::lock_guard telling(mutex);
-          return tell();
-        };
-        const bool traced = tracer.trace(wave, while_tracing, counts);
+        const bool traced = tracer.trace(wave, locked(tell), counts);
         lock.lock();
         if (!traced || ended) return;
         sums.add_listed_to(film, wave, of_wave, tracer.film(), tracer.aovs());
@@ -445,19 +392,5 @@ void Renderer::Impl::add_where_noisy(FilmBuffer& film) {
 const RenderStatistics& Renderer::statistics() const { return impl_->statistics; }
 std::vector<std::string> Renderer::stages_run() const { return impl_->tracers[0]->kernels().run; }
 std::vector<std::string> Renderer::stages_skipped() const { return impl_->tracers[0]->kernels().skipped; }
-
-MemoryPlan Renderer::plan_memory(const vulkan::DeviceInfo& device, const PackedScene& scene,
-                                 const RenderOptions& options, uint32_t devices) {
-  MemoryPlan plan;
-  const WavePlan waves(scene, with_defaults(options, scene, device, devices));
-  gpu::RenderParams params = scene.params;
-  params.capacity = waves.capacity;
-  for (const BufferPlan& p : plan_buffers(scene, params, waves, options.adaptive)) {
-    uint64_t limit = std::numeric_limits<uint64_t>::max();
-    for (const vulkan::Binding& b : p.bindings) limit = std::min(limit, vulkan::largest_buffer(device, b));
-    if (p.bytes > 0) plan.buffers.push_back({p.name, p.bytes, limit});
-  }
-  return plan;
-}
 
 }  // namespace tachylite
