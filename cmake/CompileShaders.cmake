@@ -13,7 +13,7 @@ find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 find_program(SPIRV_OPT spirv-opt REQUIRED)
 
-# One function, with variables of scalars that are loaded as seldom as can be. Without what rewrites arithmetic: images
+# One function, with variables of scalars that are loaded as seldom as can be. Nothing that rewrites arithmetic: images
 # keep their bits, and sums without rounding errors stay that. --ssa-rewrite takes 20 s for the largest kernel.
 set(_tachylite_spirv_passes
   --merge-return --inline-entry-points-exhaustive --eliminate-dead-functions --scalar-replacement=100

@@ -64,10 +64,11 @@ class KernelBuilder {
   }
 
   void build() {
+    const size_t first = wanted_.size() * source_.place.index / source_.place.count;
     std::mutex telling;
     bool failed = false;  // no more may be told once telling has thrown
     const auto make = [&](size_t i) {
-      const Wanted& w = wanted_[i];
+      const Wanted& w = wanted_[(first + i) % wanted_.size()];
       *w.kernel = std::make_unique<vulkan::Kernel>(source_.device, source_.table, w.name, w.spirv, w.constants);
       const std::lock_guard lock(telling);
       if (failed) return;

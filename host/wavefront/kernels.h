@@ -22,14 +22,21 @@ struct Kernels {
   std::vector<std::string> run, skipped;  // stages, for people
 };
 
+/// Which of several tracers that work side by side.
+struct TracerPlace {
+  uint32_t index = 0, count = 1;
+};
+
 /// What kernels are made of. All samples of a pixel lie below `end_sample`. made: is told of each as soon as it is there, by one
-/// thread at a time.
+/// thread at a time. place: tracers side by side begin with different kernels, so that each finds what others have
+/// compiled in the driver's cache on disk.
 struct KernelSource {
   vulkan::Device& device;
   const vulkan::BindingTable& table;
   const FeatureSet& features;
   const RenderOptions& options;
   uint64_t end_sample;
+  TracerPlace place;
   std::function<void(const vulkan::Kernel&)> made;
 };
 

@@ -19,8 +19,8 @@ constexpr uint64_t kLeastOfCpus = 1u << 16;  // of each of several devices
 
 // Several devices: at most so many, each with so many paths to trace at least for each kernel of a class of materials,
 // and for all others together, as each compiles them; renders that may last so long.
-constexpr uint64_t kMostDevices = 8, kPathsWorthClass = 3u << 18;
-constexpr double kSecondsWorthDevices = 10;
+constexpr uint64_t kMostDevices = 8, kPathsWorthClass = 1u << 17;
+constexpr double kSecondsWorthDevices = 3;
 constexpr uint64_t kShareOfScene = 2;  // all devices together take at most half of the memory
 
 uint32_t default_paths(const PackedScene& scene, const vulkan::DeviceInfo& device) {

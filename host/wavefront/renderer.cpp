@@ -165,20 +165,21 @@ void Renderer::render_into(FilmBuffer& film) {
 
 std::vector<std::unique_ptr<WaveTracer>> Renderer::Impl::make_tracers(std::span<vulkan::Device* const> devices) const {
   std::vector<std::unique_ptr<WaveTracer>> made(devices.size());
-  run_side_by_side(devices.size(),
-                   [&](size_t i) { made[i] = std::make_unique<WaveTracer>(*devices[i], scene, options); });
+  const auto count = static_cast<uint32_t>(devices.size());
+  run_side_by_side(count, [&](size_t i) {
+    made[i] = std::make_unique<WaveTracer>(*devices[i], scene, options, TracerPlace{static_cast<uint32_t>(i), count});
+  });
   return made;
 }
 
 // Photons are counted in integers: the guide does not depend on who has traced them.
 void Renderer::Impl::learn_guide() {
-  const auto parts = static_cast<uint32_t>(tracers.size());
-  run_side_by_side(parts, [&](size_t i) { tracers[i]->trace_photons(static_cast<uint32_t>(i), parts); });
+  run_side_by_side(tracers.size(), [&](size_t i) { tracers[i]->trace_photons(); });
   for (const auto& tracer : tracers) seconds_before = std::max(seconds_before, tracer->photon_seconds());
   const Timer learning;
-  for (uint32_t i = 1; i < parts; ++i) tracers[0]->add_photons(*tracers[i]);
+  for (uint32_t i = 1; i < tracers.size(); ++i) tracers[0]->add_photons(*tracers[i]);
   guided = tracers[0]->learn_guide();
-  for (uint32_t i = 1; guided && i < parts; ++i) tracers[i]->copy_guide(*tracers[0]);
+  for (uint32_t i = 1; guided && i < tracers.size(); ++i) tracers[i]->copy_guide(*tracers[0]);
   seconds_before += learning.seconds();
 }
 

@@ -78,8 +78,9 @@ WavePlan::WavePlan(const PackedScene& scene, const RenderOptions& options)
   blocks = std::max(1u, capacity / (pixels * kBlockSamples));
 }
 
-WaveTracer::WaveTracer(vulkan::Device& device, const PackedScene& scene, const RenderOptions& options)
-    : device_(device), scene_(scene), features_(scene.features), options_(options), plan_(scene, options),
+WaveTracer::WaveTracer(vulkan::Device& device, const PackedScene& scene, const RenderOptions& options,
+                       TracerPlace place)
+    : device_(device), scene_(scene), features_(scene.features), options_(options), place_(place), plan_(scene, options),
       params_(scene.params), bounces_per_submit_(kBouncesPerSubmit), pixels_per_wave_(plan_.pixels), commands_(device) {
   if (plan_.baked) pixels_per_wave_ = std::min(plan_.pixels, kFirstFusedPaths / (plan_.blocks * kBlockSamples));
   params_.capacity = plan_.capacity;
@@ -101,7 +102,7 @@ WaveTracer::WaveTracer(vulkan::Device& device, const PackedScene& scene, const R
 // Drivers compile a kernel when it is first dispatched: that goes on while the next is made.
 KernelSource WaveTracer::kernel_source() {
   const auto made = [this](const vulkan::Kernel& kernel) { touch(kernel); };
-  return {device_, *table_, features_, options_, params_.end_sample, made};
+  return {device_, *table_, features_, options_, params_.end_sample, place_, made};
 }
 
 void WaveTracer::build_surface_kernels(bool guided) {
@@ -206,7 +207,7 @@ void WaveTracer::record_bounce(WaveParams& wave) {
   dispatch_queue(k.intersect_shadow, gpu::kDispatchShadow, wave);
 }
 
-void WaveTracer::trace_photons(uint32_t part, uint32_t parts) {
+void WaveTracer::trace_photons() {
   const Timer compile_timer;
   const PhotonKernels photon_kernels = build_photon_kernels(kernel_source());
   kernels_.run.insert(kernels_.run.end(), photon_kernels.names.begin(), photon_kernels.names.end());
@@ -225,9 +226,9 @@ void WaveTracer::trace_photons(uint32_t part, uint32_t parts) {
   wave.photons = 1;
   wave.block_count = 1;
   const uint64_t all = photon_count(params_) / kBlockSamples;  // as samples of so many pixels
-  const auto begin_of = [&](uint32_t p) { return static_cast<uint32_t>(all * p / parts); };
-  const uint32_t end_pixel = begin_of(part + 1);
-  for (wave.first_pixel = begin_of(part); wave.first_pixel < end_pixel; wave.first_pixel += wave.pixel_count) {
+  const auto begin_of = [&](uint32_t p) { return static_cast<uint32_t>(all * p / place_.count); };
+  const uint32_t end_pixel = begin_of(place_.index + 1);
+  for (wave.first_pixel = begin_of(place_.index); wave.first_pixel < end_pixel; wave.first_pixel += wave.pixel_count) {
     wave.pixel_count = std::min(plan_.capacity / kBlockSamples, end_pixel - wave.first_pixel);
     if (pixel_list_) list_pixels(consecutive_pixels(wave));
     begin_paths(photon_kernels.init_from_lights, wave);

@@ -37,13 +37,12 @@ std::vector<glm::uvec2> consecutive_pixels(const gpu::WaveParams& wave);
 class WaveTracer {
  public:
   /// Before the first wave build_surface_kernels() must be called.
-  WaveTracer(vulkan::Device& device, const PackedScene& scene, const RenderOptions& options);
+  WaveTracer(vulkan::Device& device, const PackedScene& scene, const RenderOptions& options, TracerPlace place);
 
-  /// Where photons decide whether directions are guided: traces `part` of `parts` equal parts of them. Then one tracer
-  /// adds those of all others to its own, learns the guide, or nothing where it would not pay (false), and the others
-  /// copy it.
+  /// Where photons decide whether directions are guided: traces its part of them. Then one tracer adds those of all
+  /// others to its own, learns the guide, or nothing where it would not pay (false), and the others copy it.
   bool may_guide() const { return plan_.may_guide; }
-  void trace_photons(uint32_t part, uint32_t parts);
+  void trace_photons();
   void add_photons(const WaveTracer& other);
   bool learn_guide();
   void copy_guide(const WaveTracer& other);
@@ -88,6 +87,7 @@ class WaveTracer {
   const PackedScene& scene_;
   const FeatureSet& features_;
   const RenderOptions& options_;
+  TracerPlace place_;
   WavePlan plan_;
   gpu::RenderParams params_;
   uint32_t bounces_per_submit_;

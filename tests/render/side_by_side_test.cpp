@@ -171,9 +171,9 @@ TEST_F(SideBySide, OnlyLongRendersInStagesOfLlvmpipe) {
   EXPECT_EQ(count_devices(llvmpipe, packed, long_one), 1u);
   set_threads("4");
   RenderOptions options = long_one;
-  options.samples = 768;
+  options.samples = 128;
   EXPECT_EQ(count_devices(llvmpipe, packed, options), 2u);
-  options.samples = 767;
+  options.samples = 127;
   EXPECT_EQ(count_devices(llvmpipe, packed, options), 1u);
   options = long_one;
   options.structure = KernelStructure::kAuto;  // fits one kernel
