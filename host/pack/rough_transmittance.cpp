@@ -2,13 +2,14 @@
 
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <vector>
 
+#include "base/parallel.h"
 #include "base/pi.h"
 
 namespace tachylite {
 namespace {
-
 
 struct Rule {
   std::vector<double> nodes, weights;  // on [0, 1]
@@ -125,21 +126,22 @@ RoughTransmittance rough_transmittance(MicrofacetDistribution distribution, doub
   const Rule rule = gauss_legendre(32), fine = gauss_legendre(64);
   const Rule& inward = eta > 1 ? rule : fine;  // the side with total reflection has a kink
   const Rule& outward = eta > 1 ? fine : rule;
-  double sum = 0;
-  for (size_t i = 0; i < result.external.size(); ++i) {
-    const double mu = std::max(1e-6, static_cast<double>(i) / static_cast<double>(result.external.size() - 1));
+  const size_t count = result.external.size();
+  std::vector<double> internal(count), averaged(rule.nodes.size());
+  parallel_for_each(count, [&](size_t i) {
+    const double mu = std::max(1e-6, static_cast<double>(i) / static_cast<double>(count - 1));
     result.external[i] = transmittance(distribution, alpha, eta, mu, inward);
-    sum += reflectance(distribution, alpha, 1 / eta, mu, outward) * mu;
-  }
+    internal[i] = reflectance(distribution, alpha, 1 / eta, mu, outward) * mu;
+  });
   // 2 integral R mu dmu by Mitsuba's rule, the plain mean of the values at both ends and in between: its error is
   // part of what a scene means.
-  result.internal_reflectance = 2 * sum / static_cast<double>(result.external.size());
+  result.internal_reflectance = 2 * std::accumulate(internal.begin(), internal.end(), 0.0) / static_cast<double>(count);
   // By reciprocity, integral T_internal(mu) mu dmu = integral T_external(mu) mu dmu / eta^2.
-  for (size_t i = 0; i < rule.nodes.size(); ++i) {
+  parallel_for_each(averaged.size(), [&](size_t i) {
     const double mu = rule.nodes[i];
-    result.internal_transmittance +=
-        rule.weights[i] * 2 * mu * transmittance(distribution, alpha, eta, mu, inward) / (eta * eta);
-  }
+    averaged[i] = rule.weights[i] * 2 * mu * transmittance(distribution, alpha, eta, mu, inward) / (eta * eta);
+  });
+  result.internal_transmittance = std::accumulate(averaged.begin(), averaged.end(), 0.0);
   return result;
 }
 
