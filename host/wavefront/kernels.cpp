@@ -50,6 +50,14 @@ SpecializationConstants of_render(SpecializationConstants constants, const Kerne
   return constants;
 }
 
+// Which of `count` kernels a tracer makes i-th. One of two goes upwards and the other downwards, and they meet where each
+// has compiled as much; of more, each two share a part of the kernels, before they come to those of others.
+size_t nth_kernel(size_t i, size_t count, const TracerPlace& place) {
+  const size_t pair = place.index / 2, pairs = (place.count + 1) / 2;
+  if (place.index % 2 == 0) return (count * pair / pairs + i) % count;
+  return (count * (pair + 1) / pairs + count - 1 - i) % count;
+}
+
 /// Makes kernels on all threads: drivers do half of the work of compiling a pipeline when it is made.
 class KernelBuilder {
  public:
@@ -64,16 +72,20 @@ class KernelBuilder {
   }
 
   void build() {
-    const size_t first = wanted_.size() * source_.place.index / source_.place.count;
+    const size_t count = wanted_.size();
+    const auto kernel = [&](size_t i) -> const Wanted& { return wanted_[nth_kernel(i, count, source_.place)]; };
     std::mutex telling;
+    std::vector<bool> there(count);
+    size_t told = 0;      // in the order of nth_kernel(): drivers compile them in that
     bool failed = false;  // no more may be told once telling has thrown
     const auto make = [&](size_t i) {
-      const Wanted& w = wanted_[(first + i) % wanted_.size()];
+      const Wanted& w = kernel(i);
       *w.kernel = std::make_unique<vulkan::Kernel>(source_.device, source_.table, w.name, w.spirv, w.constants);
       const std::lock_guard lock(telling);
+      there[i] = true;
       if (failed) return;
       failed = true;
-      source_.made(**w.kernel);
+      for (; told < count && there[told]; ++told) source_.made(**kernel(told).kernel);
       failed = false;
     };
     try {

@@ -28,8 +28,8 @@ struct TracerPlace {
 };
 
 /// What kernels are made of. All samples of a pixel lie below `end_sample`. made: is told of each as soon as it is there, by one
-/// thread at a time. place: tracers side by side begin with different kernels, so that each finds what others have
-/// compiled in the driver's cache on disk.
+/// thread at a time. place: tracers side by side compile kernels in different orders, so that each finds what
+/// others have compiled in the driver's cache on disk.
 struct KernelSource {
   vulkan::Device& device;
   const vulkan::BindingTable& table;

@@ -1,6 +1,7 @@
 // How many rays the kernels take that trace or list them, each workgroup of 64 lanes.
 #ifndef TACHYLITE_GEOMETRY_TRACE_SETTINGS_GLSL
 #define TACHYLITE_GEOMETRY_TRACE_SETTINGS_GLSL
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_KHR_shader_subgroup_basic : require
 #include "base/features.glsl"
 #include "shared/medium.h"
@@ -16,6 +17,7 @@ const uint kRaysPerGroup = kWalkedPerGroup;
 #else
 const uint kRaysPerGroup = kTracedPerGroup;
 #endif
+// Loops over a lane's rays are not to be unrolled: Mesa 25.0.7 needs two seconds for that, once, and gains nothing.
 const uint kRaysPerLane = kRaysPerGroup / 64u;
 
 // Where this subgroup's rays begin among those of its workgroup, and how many they are at most.

@@ -57,7 +57,7 @@ void sample_ray(bool live, uint place) {
 
 void main() {
   uint first = first_ray_in_group(), begin = first_place(first), places = queue_length(wave.ray_queue);
-  for (uint k = 0u; k < kRaysPerLane; ++k)
+  [[dont_unroll]] for (uint k = 0u; k < kRaysPerLane; ++k)
     if (begin + k < places) store_queue(kQueueShadow, begin + k, kNoPath);
   uint count = list_segments(first, list_rays(wave.ray_queue, first).count);
   subgroupMemoryBarrier();

@@ -23,11 +23,11 @@ struct RayList {
 RayList list_rays(uint queue, uint first) {
   uint begin = first_place(first), places = queue_length(queue);
   RayList list = RayList(0u, 0u);
-  for (uint k = 0u; k < kRaysPerLane; ++k)
+  [[dont_unroll]] for (uint k = 0u; k < kRaysPerLane; ++k)
     if (begin + k < places && load_queue(queue, begin + k) != kNoPath) list.mask |= 1u << k;
   uint rays = bitCount(list.mask), next = first + subgroupExclusiveAdd(rays);
   list.count = subgroupShuffle(next + rays, gl_SubgroupSize - 1u) - first;
-  for (uint k = 0u; k < kRaysPerLane; ++k) {
+  [[dont_unroll]] for (uint k = 0u; k < kRaysPerLane; ++k) {
     if ((list.mask & 1u << k) != 0u) {
       listed[next] = begin + k;
       next += 1u;

@@ -34,11 +34,14 @@ shared uint destinations[kRaysPerGroup];
 uint destination(uint place);
 
 // Appends the paths of this subgroup's rays to their queues: six queues at a time, with one atomic each. Each lane has
-// neighbouring rays, so that entries keep the order of the rays.
+// neighbouring rays, so that entries keep the order of the rays. Reports loops that the driver has ended.
 void sort_paths(uint begin, uint mask) {
-  for (uint queue = kQueueEmitter; queue < queues_end(); queue += 6u) {
+  uint queue = kQueueEmitter;
+  bool cut = false;
+  for (; queue < queues_end(); queue += 6u) {
     uvec3 lengths = uvec3(0u);  // of the lane's parts of the six, 16 bits each
-    for (uint k = 0u; k < kRaysPerLane; ++k) {
+    uint k = 0u;
+    [[dont_unroll]] for (; k < kRaysPerLane; ++k) {
       uint i = (begin + k) % kRaysPerGroup, queues = destinations[i];
       if (queue == kQueueEmitter) {
         queues = (mask & 1u << k) != 0u ? destination(begin + k) : kNoQueues;
@@ -49,19 +52,21 @@ void sort_paths(uint begin, uint mask) {
       lengths += uvec3(q < 2u ? one : 0u, (q & ~1u) == 2u ? one : 0u, (q & ~1u) == 4u ? one : 0u);
       if (has_area_light() && queue == kQueueEmitter && goes_to_emitter(queues)) lengths.x += 1u;
     }
+    cut = cut || k < kRaysPerLane;
     uvec3 before = subgroupExclusiveAdd(lengths), all = subgroupAdd(lengths);
     uvec3 low = uvec3(0u), high = uvec3(0u);
     if (subgroupElect()) {
-      for (uint k = 0u; k < 3u; ++k) {
-        uint l = all[k] & 0xffffu, h = all[k] >> 16u;
-        uint word = length_word(queue, wave.bounce) + 2u * k;
-        if (l > 0u) low[k] = atomicAdd(counters[word], l);
-        if (h > 0u) high[k] = atomicAdd(counters[word + 1u], h);
+      for (uint pair = 0u; pair < 3u; ++pair) {
+        uint l = all[pair] & 0xffffu, h = all[pair] >> 16u;
+        uint word = length_word(queue, wave.bounce) + 2u * pair;
+        if (l > 0u) low[pair] = atomicAdd(counters[word], l);
+        if (h > 0u) high[pair] = atomicAdd(counters[word + 1u], h);
       }
     }
     low = subgroupBroadcastFirst(low) + (before & 0xffffu);
     high = subgroupBroadcastFirst(high) + (before >> 16u);
-    for (uint k = 0u; k < kRaysPerLane; ++k) {
+    k = 0u;
+    [[dont_unroll]] for (; k < kRaysPerLane; ++k) {
       uint queues = destinations[(begin + k) % kRaysPerGroup], slot = load_queue(wave.ray_queue, begin + k);
       uint q = surface_queue(queues) - queue;
       bvec3 pair = equal(uvec3(q >> 1u), uvec3(0u, 1u, 2u));
@@ -76,7 +81,9 @@ void sort_paths(uint begin, uint mask) {
         low.x += 1u;
       }
     }
+    cut = cut || k < kRaysPerLane;
   }
+  report_unfinished(cut || queue < queues_end());
 }
 
 #endif
