@@ -18,6 +18,7 @@ struct DeviceInfo {
   VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
   uint32_t subgroup_size = 0;
   bool int64 = false;  // kernels may have integers of 64 bits
+  bool slow_texel_fetches = false;  // slower than reads of storage buffers in words of 64 bits
   uint32_t max_workgroup_invocations = 0, max_workgroup_count_x = 0;
   uint64_t max_storage_buffer_range = 0, max_texel_buffer_elements = 0, max_uniform_buffer_range = 0;
   uint32_t max_push_constants = 0;

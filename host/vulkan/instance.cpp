@@ -96,6 +96,12 @@ int compute_queue_family(VkPhysicalDevice physical) {
 
 namespace {
 
+// Mesa 25's llvmpipe calls fetches through a pointer, 22.3.6 does not (tests/bench/README.md); of others nothing is known.
+bool has_slow_texel_fetches(const DeviceInfo& info) {
+  unsigned major = 0;
+  return info.driver == "llvmpipe" && std::sscanf(info.driver_version.c_str(), "Mesa %u", &major) == 1 && major >= 25;
+}
+
 std::string missing_feature(VkPhysicalDevice physical, const VkPhysicalDeviceProperties& properties,
                             const VkPhysicalDeviceVulkan11Properties& properties11) {
   if (properties.apiVersion < VK_API_VERSION_1_3) return "Vulkan 1.3 is needed";
@@ -136,6 +142,7 @@ DeviceInfo describe_device(VkPhysicalDevice physical, uint32_t index) {
   VkPhysicalDeviceFeatures features;
   vkGetPhysicalDeviceFeatures(physical, &features);
   info.int64 = features.shaderInt64;
+  info.slow_texel_fetches = has_slow_texel_fetches(info);
   info.max_workgroup_invocations = properties.limits.maxComputeWorkGroupInvocations;
   info.max_workgroup_count_x = properties.limits.maxComputeWorkGroupCount[0];
   info.max_storage_buffer_range = properties.limits.maxStorageBufferRange;

@@ -32,9 +32,13 @@ std::string class_name(const MaterialClass& c) {
 
 std::string surface_kernel_name(const MaterialClass& c) { return "shade_surface<" + class_name(c) + ">"; }
 
-// Of a kernel that has a variant with wide rows (shaders/base/queues.glsl).
+// Of a kernel that has a variant with wide rows (shaders/base/rows.glsl).
 std::string row_kernel_file(const std::string& kernel, const KernelSource& source) {
   return kernel + (source.device.info().int64 ? "_wide" : "");
+}
+// The same of a kernel that gains by them only where it reads so: it reads much and stores little.
+std::string trace_kernel_file(const std::string& kernel, const KernelSource& source) {
+  return kernel + (source.reads_storage ? "_wide" : "");
 }
 std::string surface_kernel_file(const MaterialClass& c, const KernelSource& source) {
   const bool has_variant = source.device.info().int64 || can_be_guided(c);
@@ -47,6 +51,7 @@ SpecializationConstants of_render(SpecializationConstants constants, const Kerne
       source.options.sampler == SamplerKind::kIndependent ? gpu::kSamplerIndependent : gpu::kSamplerSobol;
   constants[gpu::kFeatureLog2Samples] = static_cast<uint32_t>(std::bit_width(source.end_sample - 1));
   constants[gpu::kFeaturePixelList] = source.options.adaptive;
+  constants[gpu::kFeatureStorageReads] = source.reads_storage;
   return constants;
 }
 
@@ -166,10 +171,10 @@ Kernels build_stages(const KernelSource& source, const BakedGeometry& walls, boo
   };
 
   const auto add_trace = [&](bool needed, Kernels::Pointer& kernel, const char* name) {
-    if (!needed || walls.count == 0) return add_if(needed, kernel, name);
+    if (!needed || walls.count == 0) return add_if(needed, kernel, name, trace_kernel_file(name, source));
     SpecializationConstants constants = common;
     constants.insert(walls.constants.begin(), walls.constants.end());
-    builder.add(kernel, name, std::string(name) + "_walls", constants);
+    builder.add(kernel, name, trace_kernel_file(std::string(name) + "_walls", source), constants);
   };
 
   // Rays may go on at null surfaces whatever the depth.
@@ -195,8 +200,8 @@ Kernels build_stages(const KernelSource& source, const BakedGeometry& walls, boo
                       (!features.classes.empty() || media) && features.max_depth > 1;
   // With several classes the kernel must know the materials of all of them.
   if (shadow && features.media != 0)
-    builder.add(kernels.intersect_shadow, "intersect_shadow_transmittance", "intersect_shadow_transmittance",
-                features.union_constants());
+    builder.add(kernels.intersect_shadow, "intersect_shadow_transmittance",
+                trace_kernel_file("intersect_shadow_transmittance", source), features.union_constants());
   else
     add_trace(shadow, kernels.intersect_shadow, "intersect_shadow");
   add_if(media, kernels.sample_medium, "sample_medium");

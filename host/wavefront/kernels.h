@@ -36,6 +36,7 @@ struct KernelSource {
   const FeatureSet& features;
   const RenderOptions& options;
   uint64_t end_sample;
+  bool reads_storage;
   TracerPlace place;
   std::function<void(const vulkan::Kernel&)> made;
 };

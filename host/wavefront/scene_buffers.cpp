@@ -1,5 +1,6 @@
 #include "wavefront/scene_buffers.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "base/bulk_vector.h"
@@ -29,7 +30,7 @@ BufferPlan scene_buffer(const char* name, uint32_t binding, VkFormat format, con
 }  // namespace
 
 std::vector<BufferPlan> plan_buffers(const PackedScene& s, const gpu::RenderParams& params, const WavePlan& plan,
-                                     bool listed) {
+                                     bool listed, bool storage_reads) {
   constexpr VkFormat kUint4 = VK_FORMAT_R32G32B32A32_UINT, kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT;
   const bool media = s.features.media != 0, lit = s.features.selection != gpu::kSelectNone;
   const auto& baked = plan.baked;
@@ -41,12 +42,17 @@ std::vector<BufferPlan> plan_buffers(const PackedScene& s, const gpu::RenderPara
   const uint64_t queue_bytes = slots * sizeof(uint32_t) * (gpu::kQueueSurface + s.features.classes.size() + (s.media.empty() ? 0 : 1));
   const uint64_t shadow_bytes = lit ? slots * sizeof(glm::vec4) * (media ? gpu::kShadowRowsMedia : gpu::kShadowRows) : 0;
   const bool stages = !baked;
+  std::vector<Binding> nodes{texel(gpu::kBindBvhNodes, kUint4)};
+  std::vector<Binding> leaves{texel(gpu::kBindBvhLeaves, kFloat4), texel(gpu::kBindLeafInfo, kUint4)};
+  std::vector<Binding> unused;
+  (storage_reads ? nodes : unused).push_back(storage(gpu::kBindBvhNodeRows));
+  (storage_reads ? leaves : unused).push_back(storage(gpu::kBindBvhLeafRows));
 
   return {
       {"parameters", {{gpu::kBindParams, BindingKind::kUniform}}, &params, sizeof(params)},
-      scene_buffer("tree nodes", gpu::kBindBvhNodes, kUint4, s.bvh.nodes, stages),
-      scene_buffer("tree leaves", {texel(gpu::kBindBvhLeaves, kFloat4), texel(gpu::kBindLeafInfo, kUint4)},
-                   s.bvh.leaves, stages),
+      scene_buffer("tree nodes", std::move(nodes), s.bvh.nodes, stages),
+      scene_buffer("tree leaves", std::move(leaves), s.bvh.leaves, stages),
+      {"views of the tree", std::move(unused)},
       scene_buffer("triangles", gpu::kBindTriangles, kUint4, s.triangles, stages),
       scene_buffer("normals", gpu::kBindNormals, kFloat4, s.normals),
       scene_buffer("texture coordinates", gpu::kBindUvs, VK_FORMAT_R32G32_SFLOAT, s.uvs),
@@ -84,6 +90,12 @@ std::vector<BufferPlan> plan_buffers(const PackedScene& s, const gpu::RenderPara
       {"auxiliary channels", {storage(gpu::kBindAov)}, nullptr,
        film_rows * sizeof(glm::vec4) * static_cast<uint64_t>(std::popcount(s.features.aovs)), vulkan::Domain::kHost},
   };
+}
+
+bool reads_storage(const vulkan::DeviceInfo& device, const PackedScene& scene) {
+  const uint64_t most = std::max(scene.bvh.nodes.size() * sizeof(scene.bvh.nodes[0]),
+                                 scene.bvh.leaves.size() * sizeof(scene.bvh.leaves[0]));
+  return device.slow_texel_fetches && device.int64 && most <= device.max_storage_buffer_range;
 }
 
 }  // namespace tachylite

@@ -102,7 +102,7 @@ WaveTracer::WaveTracer(vulkan::Device& device, const PackedScene& scene, const R
 // Drivers compile a kernel when it is first dispatched: that goes on while the next is made.
 KernelSource WaveTracer::kernel_source() {
   const auto made = [this](const vulkan::Kernel& kernel) { touch(kernel); };
-  return {device_, *table_, features_, options_, params_.end_sample, place_, made};
+  return {device_, *table_, features_, options_, params_.end_sample, reads_storage(device_.info(), scene_), place_, made};
 }
 
 void WaveTracer::build_surface_kernels(bool guided) {
@@ -117,7 +117,7 @@ void WaveTracer::build_surface_kernels(bool guided) {
 }
 
 void WaveTracer::upload(const RenderOptions& options) {
-  std::vector<BufferPlan> plan = plan_buffers(scene_, params_, plan_, options.adaptive);
+  std::vector<BufferPlan> plan = plan_buffers(scene_, params_, plan_, options.adaptive, reads_storage(device_.info(), scene_));
   std::vector<vulkan::Binding> bindings;
   buffers_.reserve(plan.size());
   for (BufferPlan& p : plan) {

@@ -36,6 +36,7 @@ layout(constant_id = kFeatureGuide) const bool has_guide = false;
 layout(constant_id = kFeatureWalls) const bool has_walls = false;
 layout(constant_id = kFeatureFocusers) const uint focuser_count = 0u;
 layout(constant_id = kFeaturePhotons) const bool is_photon_pass = false;
+layout(constant_id = kFeatureStorageReads) const bool reads_storage = false;
 
 bool has_bsdf(uint type) { return (bsdf_types & (1u << type)) != 0u; }
 bool has_light(uint kind) { return (light_kinds & (1u << kind)) != 0u; }

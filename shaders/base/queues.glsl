@@ -4,40 +4,31 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-#ifdef WIDE_ROWS
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#endif
 #include "base/features.glsl"
 #include "base/math.glsl"
+#include "base/rows.glsl"
 #include "shared/bindings.h"
 #include "shared/bvh.h"
 #include "shared/counters.h"
 #include "shared/path_state.h"
 #include "shared/render_params.h"
 
-// Lavapipe stores a vector component by component, lane by lane: kernels that store much have variants with WIDE_ROWS,
-// for devices with integers of 64 bits, whose rows have half as many components.
+// Wide rows may also be read from storage buffers, see shared/features.h.
 #ifdef WIDE_ROWS
-#define ROW u64vec2
-#define ROW_PAIR u64vec4
-u64vec2 pack_row(vec4 v) { return u64vec2(packUint2x32(floatBitsToUint(v.xy)), packUint2x32(floatBitsToUint(v.zw))); }
-u64vec4 pack_rows(vec4 v, vec4 w) { return u64vec4(pack_row(v), pack_row(w)); }
+#define WRITTEN
 #else
-#define ROW vec4
-#define ROW_PAIR mat2x4
-vec4 pack_row(vec4 v) { return v; }
-mat2x4 pack_rows(vec4 v, vec4 w) { return mat2x4(v, w); }
+#define WRITTEN writeonly
 #endif
 
 layout(set = 0, binding = kBindParams) uniform RenderParamsBlock { RenderParams params; };
 layout(set = 0, binding = kBindPathTexels) uniform samplerBuffer path_texels;
 // Rows and pairs of rows are two views of the same memory, and so not restrict.
-layout(set = 0, binding = kBindPaths) writeonly buffer Paths { ROW path_rows[]; };
+layout(set = 0, binding = kBindPaths) WRITTEN buffer Paths { ROW path_rows[]; };
 layout(set = 0, binding = kBindPaths) writeonly buffer PathPairs { ROW_PAIR path_pairs[]; };
 layout(set = 0, binding = kBindQueueTexels) uniform usamplerBuffer queue_texels;
-layout(set = 0, binding = kBindQueues) writeonly restrict buffer Queues { uint queue_entries[]; };
+layout(set = 0, binding = kBindQueues) WRITTEN restrict buffer Queues { uint queue_entries[]; };
 layout(set = 0, binding = kBindShadowTexels) uniform samplerBuffer shadow_texels;
-layout(set = 0, binding = kBindShadow) writeonly buffer Shadow { ROW shadow_rows[]; };
+layout(set = 0, binding = kBindShadow) WRITTEN buffer Shadow { ROW shadow_rows[]; };
 layout(set = 0, binding = kBindShadow) writeonly buffer ShadowPairs { ROW_PAIR shadow_pairs[]; };
 layout(set = 0, binding = kBindCounters) restrict buffer Counters { uint counters[]; };
 layout(set = 0, binding = kBindPixelList) uniform usamplerBuffer pixel_list;
@@ -47,14 +38,33 @@ layout(push_constant) uniform Wave { WaveParams wave; };
 // Rows 0 and 1 lie side by side.
 uint row_index(uint row, uint i) { return row < 2u ? 2u * i + row : row * params.capacity + i; }
 
+#ifdef WIDE_ROWS
+vec4 load_path(uint row, uint slot) {
+  uint i = row_index(row, slot);
+  return reads_storage ? uintBitsToFloat(unpack_row(path_rows[i])) : texelFetch(path_texels, int(i));
+}
+vec4 load_shadow(uint row, uint place) {
+  uint i = row_index(row, place);
+  return reads_storage ? uintBitsToFloat(unpack_row(shadow_rows[i])) : texelFetch(shadow_texels, int(i));
+}
+uint load_queue(uint queue, uint entry) {
+  uint i = queue * params.capacity + entry;
+  return reads_storage ? queue_entries[i] : texelFetch(queue_texels, int(i)).x;
+}
+#else
 vec4 load_path(uint row, uint slot) { return texelFetch(path_texels, int(row_index(row, slot))); }
+vec4 load_shadow(uint row, uint place) { return texelFetch(shadow_texels, int(row_index(row, place))); }
+uint load_queue(uint queue, uint entry) {
+  return texelFetch(queue_texels, int(queue * params.capacity + entry)).x;
+}
+#endif
+
 void store_path(uint row, uint slot, vec4 value) { path_rows[row_index(row, slot)] = pack_row(value); }
 // leaving: bits of the hit that the ray leaves; pdf: of d.
 void store_path_ray(uint slot, vec3 o, uint leaving, vec3 d, float pdf) {
   path_pairs[slot] = pack_rows(vec4(o, uintBitsToFloat(leaving)), vec4(d, pdf));
 }
 
-uint load_queue(uint queue, uint i) { return texelFetch(queue_texels, int(queue * params.capacity + i)).x; }
 // Word of the length of a queue, at a bounce.
 uint length_word(uint queue, uint bounce) {
   return kCounterQueue + queue + (queue >= kQueueEmitter && (bounce & 1u) != 0u ? kMaxQueues : 0u);
@@ -62,8 +72,6 @@ uint length_word(uint queue, uint bounce) {
 uint queue_length(uint queue) { return counters[length_word(queue, wave.bounce)]; }
 void store_queue(uint queue, uint i, uint slot) { queue_entries[queue * params.capacity + i] = slot; }
 uint place_of(uint queue, uint i) { return counters[kCounterPlace + queue] + i; }
-
-vec4 load_shadow(uint row, uint i) { return texelFetch(shadow_texels, int(row_index(row, i))); }
 
 void store_shadow_ray(uint place, vec3 o, uint leaving, vec3 d, uint target, vec3 contribution, uint slot) {
   shadow_pairs[place] = pack_rows(vec4(o, uintBitsToFloat(leaving)), vec4(d, uintBitsToFloat(target)));

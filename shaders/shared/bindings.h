@@ -46,6 +46,9 @@ TACHYLITE_CONST uint kBindPixelList = 31u;     // texel RG32UI: pixels of a wave
 TACHYLITE_CONST uint kBindEmission = 32u;      // texel R32F: photons of the lights up to each, as a share of all
 TACHYLITE_CONST uint kBindPhotons = 33u;       // storage: flux of photons, shared/guide.h
 TACHYLITE_CONST uint kBindGuide = 34u;         // texel RG32UI, shared/guide.h
+// Views of the tree where kernels read it so (kFeatureStorageReads)
+TACHYLITE_CONST uint kBindBvhNodeRows = 35u;   // storage: rows of kBindBvhNodes
+TACHYLITE_CONST uint kBindBvhLeafRows = 36u;   // storage: rows of kBindBvhLeaves
 
 TACHYLITE_SHARED_END
 #endif

@@ -43,6 +43,7 @@ TACHYLITE_CONST uint kFeaturePhotons = 27u;       // bool: the paths are photons
 TACHYLITE_CONST uint kFeatureWalls = 28u;         // bool: large parallelograms outside of the tree
 TACHYLITE_CONST uint kFeatureFocusers = 29u;      // uint: spheres of the guide
 TACHYLITE_CONST uint kFeatureCameraMedium = 30u;  // uint: the medium that the camera is in
+TACHYLITE_CONST uint kFeatureStorageReads = 31u;  // bool: kernels with wide rows read tree and paths from storage buffers
 
 TACHYLITE_CONST uint kCameraPerspective = 0u;
 TACHYLITE_CONST uint kCameraThinLens = 1u;

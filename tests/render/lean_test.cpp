@@ -70,6 +70,25 @@ TEST_F(Lean, EachFeatureBringsItsOwn) {
 }
 
 // One light needs no table to choose from, and a constant environment is no second one: material samples find it.
+TEST_F(Lean, TreeIsReadAsStorageWhereThatIsFasterAndFits) {
+  const PackedScene packed = pack_scene(scene_from_elements(cornell_elements(16)));
+  const uint64_t bytes = std::max(packed.bvh.nodes.size() * sizeof(packed.bvh.nodes[0]),
+                                  packed.bvh.leaves.size() * sizeof(packed.bvh.leaves[0]));
+  vulkan::DeviceInfo slow = device().info();
+  slow.int64 = slow.slow_texel_fetches = true;
+  slow.max_storage_buffer_range = bytes;
+  EXPECT_TRUE(reads_storage(slow, packed));
+  vulkan::DeviceInfo other = slow;
+  --other.max_storage_buffer_range;
+  EXPECT_FALSE(reads_storage(other, packed));
+  other = slow;
+  other.int64 = false;
+  EXPECT_FALSE(reads_storage(other, packed));
+  other = slow;
+  other.slow_texel_fetches = false;
+  EXPECT_FALSE(reads_storage(other, packed));
+}
+
 TEST_F(Lean, OneLightIsNotChosen) {
   const std::string sensor = R"(<integrator type="path"/>)" + sensor_element(8, 8) + R"(<shape type="rectangle"/>)";
   const std::string lamp = R"(<shape type="sphere"><point name="center" x="0" y="2" z="0"/><emitter type="area"/></shape>)";
