@@ -1,6 +1,7 @@
 #include "vulkan/instance.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
 #include <mutex>
 

@@ -69,7 +69,7 @@ MemoryPlan Renderer::plan_memory(const vulkan::DeviceInfo& device, const PackedS
   const WavePlan waves(scene, with_defaults(options, scene, device, devices));
   gpu::RenderParams params = scene.params;
   params.capacity = waves.capacity;
-  for (const BufferPlan& p : plan_buffers(scene, params, waves, options.adaptive, reads_storage(device, scene))) {
+  for (const BufferPlan& p : plan_buffers(device, scene, params, waves, options.adaptive)) {
     uint64_t limit = std::numeric_limits<uint64_t>::max();
     for (const vulkan::Binding& b : p.bindings) limit = std::min(limit, vulkan::largest_buffer(device, b));
     if (p.bytes > 0) plan.buffers.push_back({p.name, p.bytes, limit});

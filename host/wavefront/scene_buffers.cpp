@@ -29,8 +29,8 @@ BufferPlan scene_buffer(const char* name, uint32_t binding, VkFormat format, con
 
 }  // namespace
 
-std::vector<BufferPlan> plan_buffers(const PackedScene& s, const gpu::RenderParams& params, const WavePlan& plan,
-                                     bool listed, bool storage_reads) {
+std::vector<BufferPlan> plan_buffers(const vulkan::DeviceInfo& device, const PackedScene& s,
+                                     const gpu::RenderParams& params, const WavePlan& plan, bool listed) {
   constexpr VkFormat kUint4 = VK_FORMAT_R32G32B32A32_UINT, kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT;
   const bool media = s.features.media != 0, lit = s.features.selection != gpu::kSelectNone;
   const auto& baked = plan.baked;
@@ -45,8 +45,9 @@ std::vector<BufferPlan> plan_buffers(const PackedScene& s, const gpu::RenderPara
   std::vector<Binding> nodes{texel(gpu::kBindBvhNodes, kUint4)};
   std::vector<Binding> leaves{texel(gpu::kBindBvhLeaves, kFloat4), texel(gpu::kBindLeafInfo, kUint4)};
   std::vector<Binding> unused;
-  (storage_reads ? nodes : unused).push_back(storage(gpu::kBindBvhNodeRows));
-  (storage_reads ? leaves : unused).push_back(storage(gpu::kBindBvhLeafRows));
+  const bool views = reads_storage(device, s);
+  (views ? nodes : unused).push_back(storage(gpu::kBindBvhNodeRows));
+  (views ? leaves : unused).push_back(storage(gpu::kBindBvhLeafRows));
 
   return {
       {"parameters", {{gpu::kBindParams, BindingKind::kUniform}}, &params, sizeof(params)},

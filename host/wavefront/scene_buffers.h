@@ -19,10 +19,9 @@ struct BufferPlan {
 };
 
 /// The buffers that a scene needs, each once, before anything is allocated. `listed`: the wave's pixels stand in a list.
-/// With plan.baked (one kernel for whole paths) there is no tree, no path state, no queue. `storage`: what reads_storage()
-/// says.
-std::vector<BufferPlan> plan_buffers(const PackedScene& scene, const gpu::RenderParams& params, const WavePlan& plan,
-                                     bool listed, bool storage);
+/// With plan.baked (one kernel for whole paths) there is no tree, no path state, no queue.
+std::vector<BufferPlan> plan_buffers(const vulkan::DeviceInfo& device, const PackedScene& scene,
+                                     const gpu::RenderParams& params, const WavePlan& plan, bool listed);
 
 /// Whether kernels read tree and paths from storage buffers: where that is faster, and the device has such that hold the
 /// tree.

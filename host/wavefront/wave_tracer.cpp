@@ -117,7 +117,7 @@ void WaveTracer::build_surface_kernels(bool guided) {
 }
 
 void WaveTracer::upload(const RenderOptions& options) {
-  std::vector<BufferPlan> plan = plan_buffers(scene_, params_, plan_, options.adaptive, reads_storage(device_.info(), scene_));
+  std::vector<BufferPlan> plan = plan_buffers(device_.info(), scene_, params_, plan_, options.adaptive);
   std::vector<vulkan::Binding> bindings;
   buffers_.reserve(plan.size());
   for (BufferPlan& p : plan) {

@@ -1,4 +1,4 @@
-// Path state and queues as kernels use them: reads through texel buffers, writes through storage buffers.
+// Path state and queues as kernels use them: writes through storage buffers, reads as base/rows.glsl says.
 #ifndef TACHYLITE_BASE_QUEUES_GLSL
 #define TACHYLITE_BASE_QUEUES_GLSL
 #extension GL_KHR_shader_subgroup_basic : require
@@ -13,7 +13,7 @@
 #include "shared/path_state.h"
 #include "shared/render_params.h"
 
-// Wide rows may also be read from storage buffers, see shared/features.h.
+// Only kernels with wide rows read from storage buffers.
 #ifdef WIDE_ROWS
 #define WRITTEN
 #else
@@ -38,26 +38,18 @@ layout(push_constant) uniform Wave { WaveParams wave; };
 // Rows 0 and 1 lie side by side.
 uint row_index(uint row, uint i) { return row < 2u ? 2u * i + row : row * params.capacity + i; }
 
-#ifdef WIDE_ROWS
 vec4 load_path(uint row, uint slot) {
   uint i = row_index(row, slot);
-  return reads_storage ? uintBitsToFloat(unpack_row(path_rows[i])) : texelFetch(path_texels, int(i));
+  return STORED_OR_FETCHED(uintBitsToFloat(unpack_row(path_rows[i])), texelFetch(path_texels, int(i)));
 }
 vec4 load_shadow(uint row, uint place) {
   uint i = row_index(row, place);
-  return reads_storage ? uintBitsToFloat(unpack_row(shadow_rows[i])) : texelFetch(shadow_texels, int(i));
+  return STORED_OR_FETCHED(uintBitsToFloat(unpack_row(shadow_rows[i])), texelFetch(shadow_texels, int(i)));
 }
 uint load_queue(uint queue, uint entry) {
   uint i = queue * params.capacity + entry;
-  return reads_storage ? queue_entries[i] : texelFetch(queue_texels, int(i)).x;
+  return STORED_OR_FETCHED(queue_entries[i], texelFetch(queue_texels, int(i)).x);
 }
-#else
-vec4 load_path(uint row, uint slot) { return texelFetch(path_texels, int(row_index(row, slot))); }
-vec4 load_shadow(uint row, uint place) { return texelFetch(shadow_texels, int(row_index(row, place))); }
-uint load_queue(uint queue, uint entry) {
-  return texelFetch(queue_texels, int(queue * params.capacity + entry)).x;
-}
-#endif
 
 void store_path(uint row, uint slot, vec4 value) { path_rows[row_index(row, slot)] = pack_row(value); }
 // leaving: bits of the hit that the ray leaves; pdf: of d.

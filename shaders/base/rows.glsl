@@ -11,11 +11,14 @@
 u64vec2 pack_row(vec4 v) { return u64vec2(packUint2x32(floatBitsToUint(v.xy)), packUint2x32(floatBitsToUint(v.zw))); }
 u64vec4 pack_rows(vec4 v, vec4 w) { return u64vec4(pack_row(v), pack_row(w)); }
 uvec4 unpack_row(u64vec2 row) { return uvec4(unpackUint2x32(row.x), unpackUint2x32(row.y)); }
+// What lies in a storage buffer, which has a view as a texel buffer: read as this kernel is to.
+#define STORED_OR_FETCHED(stored, fetched) (reads_storage ? (stored) : (fetched))
 #else
 #define ROW vec4
 #define ROW_PAIR mat2x4
 vec4 pack_row(vec4 v) { return v; }
 mat2x4 pack_rows(vec4 v, vec4 w) { return mat2x4(v, w); }
+#define STORED_OR_FETCHED(stored, fetched) (fetched)
 #endif
 
 #endif

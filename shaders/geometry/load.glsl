@@ -12,20 +12,17 @@ layout(set = 0, binding = kBindLeafInfo) uniform usamplerBuffer leaf_info;
 #ifdef WIDE_ROWS
 layout(set = 0, binding = kBindBvhNodeRows) readonly restrict buffer BvhNodeRows { ROW bvh_node_rows[]; };
 layout(set = 0, binding = kBindBvhLeafRows) readonly restrict buffer BvhLeafRows { ROW bvh_leaf_rows[]; };
+#endif
+
 uvec4 load_bvh_node(uint row) {
-  return reads_storage ? unpack_row(bvh_node_rows[row]) : texelFetch(bvh_nodes, int(row));
+  return STORED_OR_FETCHED(unpack_row(bvh_node_rows[row]), texelFetch(bvh_nodes, int(row)));
 }
 vec4 load_bvh_leaf(uint row) {
-  return reads_storage ? uintBitsToFloat(unpack_row(bvh_leaf_rows[row])) : texelFetch(bvh_leaves, int(row));
+  return STORED_OR_FETCHED(uintBitsToFloat(unpack_row(bvh_leaf_rows[row])), texelFetch(bvh_leaves, int(row)));
 }
 uvec4 load_leaf_info(uint leaf) {
   uint row = leaf * kBvhLeafRows + 3u;
-  return reads_storage ? unpack_row(bvh_leaf_rows[row]) : texelFetch(leaf_info, int(row));
+  return STORED_OR_FETCHED(unpack_row(bvh_leaf_rows[row]), texelFetch(leaf_info, int(row)));
 }
-#else
-uvec4 load_bvh_node(uint row) { return texelFetch(bvh_nodes, int(row)); }
-vec4 load_bvh_leaf(uint row) { return texelFetch(bvh_leaves, int(row)); }
-uvec4 load_leaf_info(uint leaf) { return texelFetch(leaf_info, int(leaf * kBvhLeafRows + 3u)); }
-#endif
 
 #endif

@@ -1,5 +1,5 @@
 // Binding numbers of descriptor set 0. "texel" is a read-only texel buffer, "storage" a storage buffer that kernels
-// write. A buffer that a scene does not need is not allocated; a few zeros stand in for it.
+// write, unless it is a view. A buffer that a scene does not need is not allocated; a few zeros stand in for it.
 #ifndef TACHYLITE_SHARED_BINDINGS_H
 #define TACHYLITE_SHARED_BINDINGS_H
 #include "interop.h"

@@ -1,6 +1,6 @@
 // The state of a path: rows of vec4, structure of arrays. Row r of path slot s is element r * capacity + s of
-// kBindPaths, but rows 0 and 1 alternate: they are elements 2 s and 2 s + 1, to be written as one. Kernels read through
-// the texel view and write through the storage buffer. Rows beyond kPathRowsBase exist only in scenes that need them.
+// kBindPaths, but rows 0 and 1 alternate: they are elements 2 s and 2 s + 1, to be written as one. Kernels write
+// through the storage buffer, and read through the texel view or it (kFeatureStorageReads). Rows beyond kPathRowsBase exist only in scenes that need them.
 //
 // The slot of a path is a function of pixel and sample (shared/render_params.h); contributions are written to the
 // slot. So an image does not depend on the order in which queues are filled.

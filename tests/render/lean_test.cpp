@@ -69,7 +69,6 @@ TEST_F(Lean, EachFeatureBringsItsOwn) {
   EXPECT_FALSE(names(buffers_of(ball), "triangles"));
 }
 
-// One light needs no table to choose from, and a constant environment is no second one: material samples find it.
 TEST_F(Lean, TreeIsReadAsStorageWhereThatIsFasterAndFits) {
   const PackedScene packed = pack_scene(scene_from_elements(cornell_elements(16)));
   const uint64_t bytes = std::max(packed.bvh.nodes.size() * sizeof(packed.bvh.nodes[0]),
@@ -89,6 +88,7 @@ TEST_F(Lean, TreeIsReadAsStorageWhereThatIsFasterAndFits) {
   EXPECT_FALSE(reads_storage(other, packed));
 }
 
+// One light needs no table to choose from, and a constant environment is no second one: material samples find it.
 TEST_F(Lean, OneLightIsNotChosen) {
   const std::string sensor = R"(<integrator type="path"/>)" + sensor_element(8, 8) + R"(<shape type="rectangle"/>)";
   const std::string lamp = R"(<shape type="sphere"><point name="center" x="0" y="2" z="0"/><emitter type="area"/></shape>)";
